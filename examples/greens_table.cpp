@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Tabulates the free-space ring Green function M for the target-source pairs of a CSV file.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <axistokes/kernel/free_space.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using axistokes::FreeSpaceKernel;
+using axistokes::KernelBlock;
+using axistokes::Point;
+
+struct Row {
+    Point<double> target;
+    Point<double> source;
+    KernelBlock<double> m;
+};
+
+constexpr std::array<std::string_view, 4> kColumns{"r0", "z0", "r", "z"};
+
+/// A place in the input; every error message starts with it.
+struct Place {
+    const fs::path& file;
+    std::size_t line;
+
+    [[noreturn]] void fail(const std::string& what) const {
+        throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
+    }
+};
+
+std::string_view trim(std::string_view text) {
+    constexpr std::string_view kBlank = " \t\r";
+    const auto first = text.find_first_not_of(kBlank);
+    if (first == std::string_view::npos) {
+        return {};
+    }
+    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<std::string_view> split_line(std::string_view line) {
+    std::vector<std::string_view> fields;
+    for (;;) {
+        const auto comma = line.find(',');
+        fields.push_back(trim(line.substr(0, comma)));
+        if (comma == std::string_view::npos) {
+            return fields;
+        }
+        line.remove_prefix(comma + 1);
+    }
+}
+
+using ColumnIndices = std::array<std::size_t, kColumns.size()>;
+
+ColumnIndices parse_header(const std::vector<std::string_view>& fields, const Place& place) {
+    ColumnIndices indices{};
+    for (std::size_t c = 0; c < kColumns.size(); ++c) {
+        const std::string name(kColumns[c]);
+        if (std::count(fields.begin(), fields.end(), kColumns[c]) > 1) {
+            place.fail("column '" + name + "' occurs twice");
+        }
+        const auto found = std::find(fields.begin(), fields.end(), kColumns[c]);
+        if (found == fields.end()) {
+            place.fail("missing column '" + name + "' (the header must name r0, z0, r and z)");
+        }
+        indices[c] = static_cast<std::size_t>(found - fields.begin());
+    }
+    return indices;
+}
+
+double parse_number(std::string_view text, std::string_view column, const Place& place) {
+    const std::string shown = std::string(column) + " = '" + std::string(text) + "'";
+    // from_chars takes no leading plus sign, which spreadsheets may write.
+    const std::string_view digits = text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
+    double value = 0;
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (result.ec == std::errc::result_out_of_range) {
+        place.fail(shown + ": outside the range of double");
+    }
+    if (result.ec != std::errc() || result.ptr != digits.data() + digits.size()) {
+        place.fail(shown + ": not a number");
+    }
+    if (!std::isfinite(value)) {
+        place.fail(shown + ": must be finite");
+    }
+    return value;
+}
+
+Row evaluate_row(const std::vector<std::string_view>& fields, const ColumnIndices& indices, const Place& place) {
+    std::array<double, kColumns.size()> values{};
+    for (std::size_t c = 0; c < kColumns.size(); ++c) {
+        values[c] = parse_number(fields[indices[c]], kColumns[c], place);
+        const bool is_radius = kColumns[c].front() == 'r';
+        if (is_radius && values[c] < 0) {
+            place.fail(std::string(kColumns[c]) + " = '" + std::string(fields[indices[c]]) + "': must be >= 0");
+        }
+    }
+    const auto [r0, z0, r, z] = values;
+    if (r0 == r && z0 == z) {
+        place.fail("the target lies on the source, (r, z) = (" + std::string(fields[indices[2]]) + ", " +
+                   std::string(fields[indices[3]]) + "), where M is infinite");
+    }
+    const KernelBlock<double> m = FreeSpaceKernel<double>().singular({r0, z0}, {r, z});
+    if (!std::isfinite(m.rr) || !std::isfinite(m.rz) || !std::isfinite(m.zr) || !std::isfinite(m.zz)) {
+        place.fail("r, z = " + std::string(fields[indices[2]]) + ", " + std::string(fields[indices[3]]) +
+                   ": too close to the target, or too far from the origin, for double precision");
+    }
+    return {{r0, z0}, {r, z}, m};
+}
+
+std::vector<Row> read_rows(const fs::path& file) {
+    std::ifstream input(file);
+    if (fs::is_directory(file) || !input) {
+        throw std::runtime_error(file.string() + ": cannot be read");
+    }
+    std::string line;
+    if (!std::getline(input, line)) {
+        throw std::runtime_error(file.string() + ":1: the header line is missing");
+    }
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (line.starts_with(kByteOrderMark)) {
+        line.erase(0, kByteOrderMark.size());
+    }
+    const std::vector<std::string_view> header = split_line(line);
+    const std::size_t width = header.size();
+    const ColumnIndices indices = parse_header(header, {file, 1});
+    std::vector<Row> rows;
+    for (std::size_t number = 2; std::getline(input, line); ++number) {
+        if (trim(line).empty()) {
+            continue;
+        }
+        const Place place{file, number};
+        const std::vector<std::string_view> fields = split_line(line);
+        if (fields.size() != width) {
+            place.fail(std::to_string(fields.size()) + " fields, but the header has " + std::to_string(width));
+        }
+        rows.push_back(evaluate_row(fields, indices, place));
+    }
+    if (input.bad()) {
+        throw std::runtime_error(file.string() + ": reading failed");
+    }
+    return rows;
+}
+
+void write_rows(std::ostream& out, const std::vector<Row>& rows) {
+    out.precision(17);
+    out << "r0,z0,r,z,M_rr,M_rz,M_zr,M_zz\n";
+    for (const auto& [target, source, m] : rows) {
+        out << target.r << ',' << target.z << ',' << source.r << ',' << source.z << ',' << m.rr << ',' << m.rz << ','
+            << m.zr << ',' << m.zz << '\n';
+    }
+}
+
+/// Writes under a temporary name and renames, so that greens.csv is never incomplete.
+void write_table(const fs::path& directory, const std::vector<Row>& rows) {
+    fs::create_directories(directory);
+    const fs::path temporary = directory / "greens.csv.tmp";
+    std::ofstream out(temporary);
+    write_rows(out, rows);
+    out.close();
+    if (!out) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw std::runtime_error(temporary.string() + ": cannot be written");
+    }
+    fs::rename(temporary, directory / "greens.csv");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Tabulates the axisymmetric free-space Green function M_ab(x0, x), without its factor 1/(8 pi)"};
+    std::string input;
+    std::string directory;
+    app.add_option("--input", input, "CSV file with a header line and the columns r0, z0 (target), r, z (source)")
+        ->required();
+    app.add_option("--out", directory, "directory that receives greens.csv; created if missing")->required();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? EXIT_SUCCESS : 2;
+    }
+    try {
+        write_table(directory, read_rows(input));
+    } catch (const std::exception& error) {
+        std::cerr << "greens_table: " << error.what() << '\n';
+        return 2;
+    }
+    return EXIT_SUCCESS;
+}

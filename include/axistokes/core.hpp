@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Types shared by every header: dense vectors and matrices, points of the meridian half-plane, 2x2 kernel blocks, and
+// the errors the library throws.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace axistokes {
+
+using Index = Eigen::Index;
+
+template <class S>
+using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+template <class S>
+using Matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// A point of the meridian half-plane: r >= 0 is the distance to the axis, z runs along it (both in units of R0).
+template <class S>
+struct Point {
+    S r{};
+    S z{};
+};
+
+/// The four entries of an axisymmetric Green function M_ab(x0, x): first index target velocity, second source force.
+template <class S>
+struct KernelBlock {
+    S rr{};
+    S rz{};
+    S zr{};
+    S zz{};
+};
+
+/// Views of four arrays of equal length that receive kernel entries, one per source point.
+template <class S>
+struct KernelArrays {
+    S* rr = nullptr;
+    S* rz = nullptr;
+    S* zr = nullptr;
+    S* zz = nullptr;
+};
+
+/// Bad input. The message names the argument, the value it had and the accepted range.
+class InvalidArgument : public std::invalid_argument {
+  public:
+    using std::invalid_argument::invalid_argument;
+};
+
+/// A computation that cannot go on (NaN, self-intersection, step too small); the message gives the cause.
+class SimulationFailure : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+namespace detail {
+
+/// Throws InvalidArgument unless `ok`. Written so that NaN fails every comparison a caller passes in.
+template <class T>
+void require(bool ok, const char* argument, const T& value, const char* accepted) {
+    if (ok) {
+        return;
+    }
+    std::ostringstream message;
+    message.precision(17);
+    message << argument << " = " << value << ": must be " << accepted;
+    throw InvalidArgument(message.str());
+}
+
+}  // namespace detail
+}  // namespace axistokes
