@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Time per value of K and E, and per source-target pair of the free-space kernel. items_per_second is values or pairs
 // per second: its inverse is the time of one.
-#include <benchmark/benchmark.h>
-
 #include <axistokes/kernel/free_space.hpp>
+
+#include <benchmark/benchmark.h>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

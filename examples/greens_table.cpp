@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Tabulates the free-space ring Green function M for the target-source pairs of a CSV file.
+#include <axistokes/kernel/free_space.hpp>
+
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <array>
-#include <axistokes/kernel/free_space.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>

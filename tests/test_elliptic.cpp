@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // K and E against the textbook arithmetic-geometric mean in 100 digits (Abramowitz & Stegun 17.6) and Boost.Math.
-#include <algorithm>
+#include "catch.hpp"
 #include <axistokes/special/elliptic.hpp>
+
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -12,8 +15,6 @@
 #include <random>
 #include <string>
 #include <vector>
-
-#include "catch.hpp"
 
 namespace {
 
@@ -109,10 +110,18 @@ void print_row(const std::string& name, double smallest_exponent, int count) {
 }  // namespace
 
 TEST_CASE("K and E are accurate to 4 eps over the whole range", "[elliptic]") {
-    SECTION("float") { check_all<float>(-37, 500); }
-    SECTION("double") { check_all<double>(-300, 500); }
-    SECTION("long double") { check_all<long double>(-300, 300); }
-    SECTION("50 digits") { check_all<Real50>(-300, 100); }
+    SECTION("float") {
+        check_all<float>(-37, 500);
+    }
+    SECTION("double") {
+        check_all<double>(-300, 500);
+    }
+    SECTION("long double") {
+        check_all<long double>(-300, 300);
+    }
+    SECTION("50 digits") {
+        check_all<Real50>(-300, 100);
+    }
 }
 
 TEST_CASE("K and E agree with Boost.Math", "[elliptic]") {

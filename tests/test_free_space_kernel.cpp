@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // M against its definition through the integrals I_mn in 400 digits (K, E by the textbook AGM), that definition against
 // quadrature over the azimuth, and the properties the rest of the library relies on.
+#include "catch.hpp"
+#include <axistokes/kernel/free_space.hpp>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include <algorithm>
 #include <array>
-#include <axistokes/kernel/free_space.hpp>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <functional>
 #include <iomanip>
@@ -14,8 +17,6 @@
 #include <string>
 #include <type_traits>
 #include <vector>
-
-#include "catch.hpp"
 
 namespace {
 
@@ -178,7 +179,9 @@ double log_uniform(Random& random, double low, double high) {
     return std::pow(10.0, std::uniform_real_distribution<double>(low, high)(random));
 }
 
-double either_sign(Random& random) { return random() % 2 == 0 ? 1.0 : -1.0; }
+double either_sign(Random& random) {
+    return random() % 2 == 0 ? 1.0 : -1.0;
+}
 
 /// A source at distance d of the target in a random direction, axis directions included; never across the axis.
 template <class S>
@@ -344,9 +347,15 @@ TEST_CASE("the reference agrees with quadrature over the azimuth", "[kernel]") {
 }
 
 TEST_CASE("M is accurate in every region", "[kernel]") {
-    SECTION("float") { check_all_regions<float>(100, 200.0 * 0x1p-23); }
-    SECTION("double") { check_all_regions<double>(100, 1e-13); }
-    SECTION("long double") { check_all_regions<long double>(40, 200.0 * 0x1p-63); }
+    SECTION("float") {
+        check_all_regions<float>(100, 200.0 * 0x1p-23);
+    }
+    SECTION("double") {
+        check_all_regions<double>(100, 1e-13);
+    }
+    SECTION("long double") {
+        check_all_regions<long double>(40, 200.0 * 0x1p-63);
+    }
     SECTION("50 digits") {
         check_all_regions<Real50>(20, 200 * static_cast<double>(std::numeric_limits<Real50>::epsilon()));
     }

@@ -14,12 +14,12 @@
 // near the axis (eps/r0) do not occur.
 #pragma once
 
+#include "../core.hpp"
+#include "../special/elliptic.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "../core.hpp"
-#include "../special/elliptic.hpp"
 
 namespace axistokes {
 

@@ -5,12 +5,12 @@
 // digit once d^2 falls below the rounding error.
 #pragma once
 
-#include <cmath>
-
 #include "../core.hpp"
 #include "elliptic_coefficients.hpp"
 #include "fast_log.hpp"
 #include "ring_integrals.hpp"
+
+#include <cmath>
 
 namespace axistokes {
 

@@ -10,10 +10,10 @@
 // double use minimax polynomials on the whole of (0, 1], all other types the arithmetic-geometric mean.
 #pragma once
 
+#include "elliptic_coefficients.hpp"
+
 #include <cmath>
 #include <limits>
-
-#include "elliptic_coefficients.hpp"
 
 namespace axistokes {
 

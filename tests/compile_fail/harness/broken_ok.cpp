@@ -1,1 +1,3 @@
-int main() { return undeclared; }
+int main() {
+    return undeclared;
+}

@@ -1,2 +1,4 @@
 // expect: a text that no compiler prints
-int main() { return undeclared; }
+int main() {
+    return undeclared;
+}

@@ -1,2 +1,4 @@
 // expect: undeclared
-int main() { return undeclared_1 + undeclared_2 + undeclared_3; }
+int main() {
+    return undeclared_1 + undeclared_2 + undeclared_3;
+}
