@@ -5,9 +5,12 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace axistokes {
 
@@ -57,6 +60,17 @@ class SimulationFailure : public std::runtime_error {
 };
 
 namespace detail {
+
+template <class S>
+S pi_value() {
+    if constexpr (std::is_floating_point_v<S>) {
+        return std::numbers::pi_v<S>;
+    } else {
+        using std::acos;
+        static const S value = acos(S(-1));
+        return value;
+    }
+}
 
 /// Throws InvalidArgument unless `ok`. Written so that NaN fails every comparison a caller passes in.
 template <class T>

@@ -10,6 +10,7 @@
 // double use minimax polynomials on the whole of (0, 1], all other types the arithmetic-geometric mean.
 #pragma once
 
+#include "../core.hpp"
 #include "elliptic_coefficients.hpp"
 
 #include <cmath>
@@ -74,13 +75,6 @@ AgmSums<S> agm_sums(const S& m, const S& m1) {
         c_over_m = m * c_over_m * c_over_m / (4 * a);
         weight *= 2;
     }
-}
-
-template <class S>
-S pi_value() {
-    using std::acos;
-    static const S value = acos(S(-1));
-    return value;
 }
 
 template <class S>

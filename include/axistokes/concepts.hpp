@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What a policy must offer to take part in a Simulator: one concept per policy, its contract in the paragraph above it.
+#pragma once
+
+#include "core.hpp"
+#include "geometry/meridian.hpp"
+
+#include <concepts>
+
+namespace axistokes {
+
+/// GreenKernel: the velocity M_ab(x0, x) at a target due to a ring of forces, without the factor 1/(8 pi), with the
+/// ring's Jacobian r. The singular part, pairwise, carries the free-space logarithm log(m1): `singular` evaluates it for
+/// arrays of sources, `singular_split` as smooth + log_coefficient log(m1). A kernel with has_regular_part = true
+/// additionally has a smooth correction that is evaluated for all points at once.
+template <class K>
+concept GreenKernel = requires(const K& kernel, Point<typename K::Scalar> target, const typename K::Scalar* coordinate,
+                               Index count, KernelArrays<typename K::Scalar> out) {
+    { K::has_regular_part } -> std::convertible_to<bool>;
+    { kernel.singular(target, coordinate, coordinate, count, out) } -> std::same_as<void>;
+    { kernel.singular_split(target, coordinate, coordinate, count, out, out) } -> std::same_as<void>;
+};
+
+/// DiscretizationFor<Kernel>: nodes on the meridian and the operators on them. `surface(meridian)` gives the frozen
+/// geometry: nodal weights of Int dA, outward normals, curvatures, and the linear operators (Laplacian, divergence,
+/// tension force) as matrices of whatever type multiplies vectors. `single_layer(meridian, kernel)` is the matrix from
+/// nodal force densities, stacked [r; z], to nodal velocities; `single_layer_at` the same for targets off the surface.
+template <class D, class Kernel>
+concept DiscretizationFor =
+    GreenKernel<Kernel> && std::same_as<typename D::Scalar, typename Kernel::Scalar> &&
+    requires(const D& discretization, const Meridian<typename D::Scalar>& meridian, const Kernel& kernel) {
+        typename D::Surface;
+        { discretization.surface(meridian) } -> std::same_as<typename D::Surface>;
+        { discretization.single_layer(meridian, kernel) } -> std::convertible_to<Matrix<typename D::Scalar>>;
+    };
+
+/// Background: what drives the scene. `velocity(point)` is the undisturbed flow, `normal_load(point)` the normal force
+/// density on the membrane (gravity); has_flow and has_load tell which of the two exist, and what does not exist is
+/// never evaluated. `velocity_scale()` is a typical velocity, by which the stationarity residual is measured.
+template <class B>
+concept Background = requires(const B& background, Point<typename B::Scalar> point) {
+    { B::has_flow } -> std::convertible_to<bool>;
+    { B::has_load } -> std::convertible_to<bool>;
+    { background.velocity(point) } -> std::same_as<Point<typename B::Scalar>>;
+    { background.normal_load(point) } -> std::convertible_to<typename B::Scalar>;
+};
+
+/// LinearSolver: `factorize(A)` prepares a square dense matrix, `solve(b)` returns x with A x = b. Both throw
+/// SimulationFailure when the matrix is singular or an iteration does not converge.
+template <class L>
+concept LinearSolver =
+    requires(L& solver, const Matrix<typename L::Scalar>& a, const Vector<typename L::Scalar>& b) {
+        { solver.factorize(a) } -> std::same_as<void>;
+        { solver.solve(b) } -> std::convertible_to<Vector<typename L::Scalar>>;
+    };
+
+/// The quasi-static problem a membrane solves: a frozen surface, its single layer (velocity = mobility * nodal force
+/// density), the background at the nodes, and how implicit the membrane's forces are: they are evaluated at
+/// x + implicit_time * u, linearised about the frozen surface.
+template <class S, class Surface>
+struct MobilityProblem {
+    const Surface& surface;
+    const Matrix<S>& mobility;
+    const Vector<S>& background_velocity;  // stacked [r; z]
+    const Vector<S>& load;                 // stacked [r; z] force density
+    const Vector<S>& tension;              // of the previous step, or empty
+    S implicit_time;
+};
+
+/// Answer to a MobilityProblem; vectors are stacked [r; z] except the tension, which lives where the surface puts it.
+template <class S>
+struct MobilitySolution {
+    Vector<S> velocity;
+    Vector<S> force;    // total force density of the membrane on the fluid
+    Vector<S> bending;  // its bending part
+    Vector<S> tension_force;
+    Vector<S> tension;
+};
+
+/// MembraneFor<Surface>: turns a MobilityProblem into velocities and forces with a given linear solver. `deformable`
+/// tells whether the shape can change; if not, time stepping reduces to one solve.
+template <class M, class Surface, class Solver>
+concept MembraneFor =
+    LinearSolver<Solver> &&
+    requires(const M& membrane, const MobilityProblem<typename M::Scalar, Surface>& problem, Solver& solver) {
+        { M::deformable } -> std::convertible_to<bool>;
+        { membrane.solve(problem, solver) } -> std::same_as<MobilitySolution<typename M::Scalar>>;
+    };
+
+}  // namespace axistokes
