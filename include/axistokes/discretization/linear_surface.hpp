@@ -26,6 +26,7 @@ struct LinearSurface {
     Vector<S> element_length;   // L
     Vector<S> element_area;     // A
     Vector<S> weight;           // W: the quadrature weights of Int dA at the nodes
+    Vector<S> volume_gradient;  // 2n: dV/dx of the volume inside the elements, the discrete counterpart of W n
     Vector<S> normal_r;         // outward unit normal
     Vector<S> normal_z;
     Vector<S> mean_curvature;   // H > 0 on a sphere
@@ -48,10 +49,8 @@ struct LinearSurface {
         n << normal_r, normal_z;
         return n;
     }
-    /// Int of a stacked field's normal component over the surface.
-    S flux(const Vector<S>& field) const {
-        return weight.dot(normal_r.cwiseProduct(field.head(size())) + normal_z.cwiseProduct(field.tail(size())));
-    }
+    /// Int of a stacked field's normal component over the surface; exactly 0 for a translation.
+    S flux(const Vector<S>& field) const { return volume_gradient.dot(field); }
     S area() const { return weight.sum(); }
     /// Values on elements (such as the tension) at the nodes, by area-weighted averages.
     Vector<S> at_nodes(const Vector<S>& on_elements) const {
@@ -113,6 +112,7 @@ class LinearSurfaceBuilder {
 
     LinearSurface<S> build() {
         metric();
+        volume();
         normals();
         laplacian();
         curvatures();
@@ -147,6 +147,23 @@ class LinearSurfaceBuilder {
             s_.weight[e] += pi * length * (3 * m_.r[e] + m_.r[e + 1]) / 4;
             s_.weight[e + 1] += pi * length * (m_.r[e] + 3 * m_.r[e + 1]) / 4;
         }
+    }
+
+    /// V = sum pi/3 (r1^2 + r1 r2 + r2^2) (z2 - z1). The radial derivative at a pole belongs to no axisymmetric motion.
+    void volume() {
+        const S third = pi_value<S>() / 3;
+        s_.volume_gradient = Vector<S>::Zero(2 * n_);
+        for (Index e = 0; e + 1 < n_; ++e) {
+            const S r1 = m_.r[e];
+            const S r2 = m_.r[e + 1];
+            const S dz = m_.z[e + 1] - m_.z[e];
+            s_.volume_gradient[e] += third * (2 * r1 + r2) * dz;
+            s_.volume_gradient[e + 1] += third * (r1 + 2 * r2) * dz;
+            const S along = third * (r1 * r1 + r1 * r2 + r2 * r2);
+            s_.volume_gradient[n_ + e] -= along;
+            s_.volume_gradient[n_ + e + 1] += along;
+        }
+        s_.volume_gradient[0] = s_.volume_gradient[n_ - 1] = 0;
     }
 
     /// Tangent of the parabola through a node and its neighbours.

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Everything. A program that wants less includes the headers of its own policies and simulator.hpp.
+#pragma once
+
+#include "discretization/linear_elements.hpp"
+#include "flow/background.hpp"
+#include "geometry/shapes.hpp"
+#include "kernel/free_space.hpp"
+#include "membrane/rigid_body.hpp"
+#include "membrane/vesicle.hpp"
+#include "simulator.hpp"
+#include "solver/dense.hpp"
+#include "solver/gmres.hpp"
+#include "time/explicit_euler.hpp"
+#include "time/semi_implicit_euler.hpp"

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+// The paper's P1 boundary elements: straight elements, linear densities, and quadrature that knows the kernel's
+// singularity.
+//
+// Order of the rule. On the line through an element of length L the kernel's only singularity near the element is at
+// the target x0, seen in the complexified parameter: the kernel is analytic in the ellipse whose foci are the element's
+// ends and whose axis sum is rho = a + sqrt(a^2 - 1), a = (|x0 - x1| + |x0 - x2|)/L. Gauss-Legendre with n nodes errs by
+// O(rho^(-2n)) (Trefethen, Approximation Theory and Practice, theorem 19.3), so n = log(1/tolerance) / (2 log rho). If
+// that exceeds the largest order the element is halved. When x0 is one of the ends, M = smooth + log_coefficient
+// log(m1), and on a straight element m1 = L^2 t^2 / ((r + r0)^2 + (z - z0)^2): a product rule takes log t exactly, and
+// the nearest singularity is the mirror point (-r0, z0).
+#pragma once
+
+#include "../core.hpp"
+#include "../quadrature/gauss_legendre.hpp"
+#include "linear_surface.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace axistokes {
+
+/// Discretisation policy: P1 elements.
+template <class S = double>
+class LinearElements {
+  public:
+    using Scalar = S;
+    using Surface = LinearSurface<S>;
+
+    struct Params {
+        /// Relative error allowed in each element's integrals, in (0, 0.1]. The elements themselves err by O(h^2).
+        S tolerance = default_tolerance();
+
+        static S default_tolerance() {
+            // Four orders below what hundreds of elements resolve, and within reach of single precision.
+            const S wanted = S(1e-8);
+            const S reachable = 16 * std::numeric_limits<S>::epsilon();
+            return wanted > reachable ? wanted : reachable;
+        }
+    };
+
+    /// Throws InvalidArgument when the tolerance is not in (0, 0.1].
+    explicit LinearElements(Params params = {}) : params_(checked(params)), rules_(largest_order(params.tolerance)) {
+        using std::cosh;
+        using std::log;
+        // A half-axis sum a >= needed_[n] makes n nodes enough.
+        const S digits = log(S(1) / params_.tolerance);
+        needed_.push_back(std::numeric_limits<S>::infinity());
+        for (Index n = 1; n <= rules_.largest(); ++n) {
+            needed_.push_back(cosh(digits / S(2 * n)));
+        }
+    }
+
+    const Params& params() const { return params_; }
+
+    Surface surface(const Meridian<S>& meridian) const { return linear_surface(meridian); }
+
+    /// Nodes of the rule for a target whose distances to the two ends of an element sum to `distance_sum`, or 0 if the
+    /// element must be halved.
+    Index order(const S& distance_sum, const S& length) const {
+        for (Index n = smallest_order; n <= rules_.largest(); ++n) {
+            if (distance_sum >= needed_[static_cast<std::size_t>(n)] * length) {
+                return n;
+            }
+        }
+        return 0;
+    }
+
+    /// u = G f for targets at the nodes: G is 2n x 2n, f and u are stacked [r; z]; f is a force density (kappa/R0^3), u
+    /// a velocity (kappa/(eta R0^2)). Includes the factor 1/(8 pi).
+    template <class Kernel>
+    Matrix<S> single_layer(const Meridian<S>& meridian, const Kernel& kernel) const {
+        return assemble(meridian, meridian, kernel, true);
+    }
+
+    /// As single_layer, for targets anywhere (targets on an element's interior integrate its logarithm by halving).
+    template <class Kernel>
+    Matrix<S> single_layer_at(const Meridian<S>& targets, const Meridian<S>& meridian, const Kernel& kernel) const {
+        return assemble(targets, meridian, kernel, false);
+    }
+
+  private:
+    static constexpr Index smallest_order = 2;
+    static constexpr int deepest_halving = 60;
+
+    /// A rule of p nodes reaches the tolerance when the target is no closer than half an element (a = sqrt 2 at least).
+    static Index largest_order(const S& tolerance) {
+        using std::log;
+        const double digits = static_cast<double>(log(S(1) / tolerance));
+        return std::max<Index>(4, 2 * static_cast<Index>(std::ceil(digits / (4 * std::log(1.0 + std::sqrt(2.0))))) + 2);
+    }
+
+    static Params checked(Params params) {
+        detail::require(params.tolerance > S(0) && params.tolerance <= S(0.1), "quadrature tolerance", params.tolerance,
+                        "in (0, 0.1]");
+        return params;
+    }
+
+    /// Quadrature points of one target, in arrays for the kernel, with the weights of the element's two hat functions.
+    struct Points {
+        std::vector<S> r, z, lower, upper;
+        std::vector<Index> element;
+
+        void clear() {
+            r.clear();
+            z.clear();
+            lower.clear();
+            upper.clear();
+            element.clear();
+        }
+        void add(const Point<S>& p, const S& to_lower, const S& to_upper, Index e) {
+            r.push_back(p.r);
+            z.push_back(p.z);
+            lower.push_back(to_lower);
+            upper.push_back(to_upper);
+            element.push_back(e);
+        }
+        Index size() const { return static_cast<Index>(r.size()); }
+    };
+
+    struct Entries {
+        std::vector<S> rr, rz, zr, zz;
+
+        KernelArrays<S> arrays(Index n) {
+            for (std::vector<S>* entry : {&rr, &rz, &zr, &zz}) {
+                entry->resize(static_cast<std::size_t>(n));
+            }
+            return {rr.data(), rz.data(), zr.data(), zz.data()};
+        }
+    };
+
+    /// Row of G for one target, accumulated in four contiguous vectors.
+    struct Row {
+        explicit Row(Index n) : rr(n), rz(n), zr(n), zz(n) {}
+        void set_zero() {
+            for (Vector<S>* entry : {&rr, &rz, &zr, &zz}) {
+                entry->setZero();
+            }
+        }
+        Vector<S> rr, rz, zr, zz;
+    };
+
+    static S distance(const S& r0, const S& z0, const S& r, const S& z) {
+        using std::sqrt;
+        return sqrt((r - r0) * (r - r0) + (z - z0) * (z - z0));
+    }
+
+    template <class Kernel>
+    Matrix<S> assemble(const Meridian<S>& targets, const Meridian<S>& m, const Kernel& kernel, bool at_nodes) const {
+        const Index rows = targets.nodes();
+        const Index n = m.nodes();
+        const S scale = S(1) / (8 * detail::pi_value<S>());
+        Matrix<S> g(2 * rows, 2 * n);
+        Points points;
+        Entries entries;
+        Entries log_entries;
+        Row row(n);
+        Vector<S> to_node(n);
+        for (Index i = 0; i < rows; ++i) {
+            const Point<S> target{targets.r[i], targets.z[i]};
+            for (Index j = 0; j < n; ++j) {
+                to_node[j] = distance(target.r, target.z, m.r[j], m.z[j]);
+            }
+            points.clear();
+            for (Index e = 0; e < m.elements(); ++e) {
+                if (at_nodes && (e == i || e == i - 1)) {
+                    continue;
+                }
+                add_element(m, e, S(0), S(1), target, to_node[e], to_node[e + 1], 0, points);
+            }
+            row.set_zero();
+            accumulate(kernel, target, points, entries, row);
+            if (at_nodes) {
+                if (i > 0) {
+                    add_singular_element(m, i - 1, target, false, kernel, points, entries, log_entries, row);
+                }
+                if (i < m.elements()) {
+                    add_singular_element(m, i, target, true, kernel, points, entries, log_entries, row);
+                }
+            }
+            g.row(i).head(n) = scale * row.rr;
+            g.row(i).tail(n) = scale * row.rz;
+            g.row(rows + i).head(n) = scale * row.zr;
+            g.row(rows + i).tail(n) = scale * row.zz;
+        }
+        return g;
+    }
+
+    /// Points on the part [begin, end] of element e; `from`, `to` are the target's distances to the part's ends.
+    void add_element(const Meridian<S>& m, Index e, const S& begin, const S& end, const Point<S>& target, const S& from,
+                     const S& to, int depth, Points& points) const {
+        const S dr = m.r[e + 1] - m.r[e];
+        const S dz = m.z[e + 1] - m.z[e];
+        const S length = distance(S(0), S(0), dr, dz);
+        Index n = order(from + to, length * (end - begin));
+        if (n == 0 && depth == deepest_halving) {
+            n = rules_.largest();
+        }
+        if (n == 0) {
+            const S middle = (begin + end) / 2;
+            const S half = distance(target.r, target.z, m.r[e] + middle * dr, m.z[e] + middle * dz);
+            add_element(m, e, begin, middle, target, from, half, depth + 1, points);
+            add_element(m, e, middle, end, target, half, to, depth + 1, points);
+            return;
+        }
+        const GaussLegendreRule<S>& rule = rules_[n];
+        for (Index q = 0; q < n; ++q) {
+            const S t = begin + rule.nodes[q] * (end - begin);
+            const S w = rule.weights[q] * (end - begin) * length;
+            points.add({m.r[e] + t * dr, m.z[e] + t * dz}, w * (S(1) - t), w * t, e);
+        }
+    }
+
+    template <class Kernel>
+    void accumulate(const Kernel& kernel, const Point<S>& target, const Points& points, Entries& entries,
+                    Row& row) const {
+        const KernelArrays<S> out = entries.arrays(points.size());
+        kernel.singular(target, points.r.data(), points.z.data(), points.size(), out);
+        for (std::size_t q = 0; q < points.r.size(); ++q) {
+            add(row, points.element[q], points.lower[q], points.upper[q],
+                {entries.rr[q], entries.rz[q], entries.zr[q], entries.zz[q]});
+        }
+    }
+
+    static void add(Row& row, Index e, const S& lower, const S& upper, const KernelBlock<S>& m) {
+        row.rr[e] += lower * m.rr;
+        row.rr[e + 1] += upper * m.rr;
+        row.rz[e] += lower * m.rz;
+        row.rz[e + 1] += upper * m.rz;
+        row.zr[e] += lower * m.zr;
+        row.zr[e + 1] += upper * m.zr;
+        row.zz[e] += lower * m.zz;
+        row.zz[e + 1] += upper * m.zz;
+    }
+
+    /// Element e with the target at one of its ends. The product rule covers the part of it, from the target on, that
+    /// keeps clear of the mirror point; the rest is an element like any other.
+    template <class Kernel>
+    void add_singular_element(const Meridian<S>& m, Index e, const Point<S>& target, bool at_lower_end,
+                              const Kernel& kernel, Points& points, Entries& entries, Entries& log_entries,
+                              Row& row) const {
+        using std::log;
+        const Index other = at_lower_end ? e + 1 : e;
+        const S dr = m.r[other] - target.r;
+        const S dz = m.z[other] - target.z;
+        S length = distance(S(0), S(0), dr, dz);
+        Index n = smallest_order;
+        S part = 1;
+        if (target.r > S(0)) {
+            const auto mirror_order = [&] {
+                return order(2 * target.r + distance(-target.r, S(0), target.r + part * dr, part * dz), part * length);
+            };
+            for (n = mirror_order(); n == 0; n = mirror_order()) {
+                part /= 2;
+            }
+            // The product rule interpolates: rho^(-n) instead of rho^(-2n).
+            n = std::min(2 * n, rules_.largest());
+        }
+        if (part < S(1)) {
+            const S near = part * length;
+            points.clear();
+            if (at_lower_end) {
+                add_element(m, e, part, S(1), target, near, length, 0, points);
+            } else {
+                add_element(m, e, S(0), S(1) - part, target, length, near, 0, points);
+            }
+            accumulate(kernel, target, points, entries, row);
+        }
+        length *= part;
+        const GaussLegendreRule<S>& rule = rules_[n];
+        points.clear();
+        for (Index q = 0; q < n; ++q) {
+            const S t = part * rule.nodes[q];
+            points.add({target.r + t * dr, target.z + t * dz}, at_lower_end ? S(1) - t : t, at_lower_end ? t : S(1) - t,
+                       e);
+        }
+        kernel.singular_split(target, points.r.data(), points.z.data(), n, entries.arrays(n), log_entries.arrays(n));
+        for (Index q = 0; q < n; ++q) {
+            const auto k = static_cast<std::size_t>(q);
+            const S sum = points.r[k] + target.r;
+            const S offset = points.z[k] - target.z;
+            const S w = length * rule.weights[q];
+            const S wlog = w * log(length * length / (sum * sum + offset * offset)) + 2 * length * rule.log_weights[q];
+            add(row, e, points.lower[k], points.upper[k],
+                {w * entries.rr[k] + wlog * log_entries.rr[k], w * entries.rz[k] + wlog * log_entries.rz[k],
+                 w * entries.zr[k] + wlog * log_entries.zr[k], w * entries.zz[k] + wlog * log_entries.zz[k]});
+        }
+    }
+
+    Params params_;
+    GaussLegendreTable<S> rules_;
+    std::vector<S> needed_;
+};
+
+}  // namespace axistokes

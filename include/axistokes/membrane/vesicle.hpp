@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Inextensible fluid membrane with bending stiffness (a policy for the membrane model).
+//
+// Force density on the fluid, in kappa/R0^3 (Trozzo et al. 2015, eqs 3-5; bending energy 2 Int H^2 dA in kappa):
+//   f = [2 Lap_s H + 4 H (H^2 - K)] n  -  2 gamma H n + grad_s gamma  +  load n,     div_s u = 0 fixes gamma.
+#pragma once
+
+#include "../concepts.hpp"
+
+#include <cmath>
+
+namespace axistokes {
+
+namespace detail {
+
+/// Removes the mean normal force from what `mobility` is applied to and the flux from what it returns. The exact single
+/// layer maps n to 0 (a uniform pressure moves nothing) and creates no flux; a discrete one does so up to O(h^2), which
+/// would act as a leak and as an arbitrary pressure.
+template <class S, class Surface>
+void complete_rank(const Surface& surface, Matrix<S>& mobility) {
+    const Vector<S> n = surface.normals();
+    const Vector<S> mean = surface.volume_gradient / surface.flux(n);
+    mobility -= ((mobility * n) * mean.transpose()).eval();
+    mobility -= (n * (mean.transpose() * mobility)).eval();
+}
+
+template <class S, class Surface>
+Vector<S> without_flux(const Surface& surface, const Vector<S>& velocity) {
+    const Vector<S> n = surface.normals();
+    return velocity - (surface.flux(velocity) / surface.flux(n)) * n;
+}
+
+}  // namespace detail
+
+template <class S = double>
+class Vesicle {
+  public:
+    using Scalar = S;
+    static constexpr bool deformable = true;
+
+    /// Positions -> bending force density (2n x 2n), linear with the normals, metric and curvature factor of `surface`
+    /// frozen: applied to the surface's own positions it is the bending force.
+    template <class Surface>
+    static typename Surface::Operator bending_operator(const Surface& surface) {
+        using Operator = typename Surface::Operator;
+        const auto& h = surface.mean_curvature;
+        const Vector<S> factor = 4 * (h.cwiseAbs2() - surface.gauss_curvature);
+        Operator scalar = S(2) * (surface.laplacian * surface.mean_curvature_of);
+        scalar += Operator(factor.asDiagonal() * surface.mean_curvature_of);
+        return along_normal(surface, scalar);
+    }
+
+    /// 2 Int H^2 dA, in kappa.
+    template <class Surface>
+    static S bending_energy(const Surface& surface) {
+        return 2 * surface.weight.dot(surface.mean_curvature.cwiseAbs2());
+    }
+
+    /// Velocities, forces and tension of a vesicle. The unknowns are (u, gamma) of
+    ///   u - t G F u - G T gamma = u_inf + G (F x + load),    D u = 0,
+    /// with t = problem.implicit_time, F the bending operator and T, D the tension force and the divergence. Tension
+    /// also resists the curvature created during the step, at its previous value, where it is positive.
+    template <class Surface, class Solver>
+    MobilitySolution<S> solve(const MobilityProblem<S, Surface>& problem, Solver& solver) const {
+        const Surface& surface = problem.surface;
+        const Index n = 2 * surface.size();
+        const Index tensions = surface.divergence.rows();
+        const bool sphere = is_sphere(surface);
+        const S time = problem.implicit_time;
+
+        Matrix<S> g = problem.mobility;
+        detail::complete_rank<S>(surface, g);
+        const typename Surface::Operator bending = bending_operator(surface);
+        typename Surface::Operator implicit = bending;
+        if (problem.tension.size() == tensions) {
+            const Vector<S> pull = -2 * surface.at_nodes(problem.tension).cwiseMax(S(0));
+            implicit += along_normal(surface, typename Surface::Operator(pull.asDiagonal() * surface.mean_curvature_of));
+        }
+
+        const Index unknowns = n + tensions + (sphere ? 1 : 0);
+        Matrix<S> system = Matrix<S>::Zero(unknowns, unknowns);
+        system.topLeftCorner(n, n).setIdentity();
+        if (time != S(0)) {
+            system.topLeftCorner(n, n) -= time * (g * implicit);
+        }
+        system.block(0, n, n, tensions) = -(g * surface.tension_force);
+        system.block(n, 0, tensions, n) = surface.divergence;
+        if (sphere) {
+            const Vector<S> rigidity = Vector<S>::Constant(surface.size(), S(-2 * saturated_resistance));
+            system.topLeftCorner(n, n) -=
+                g * along_normal(surface, typename Surface::Operator(rigidity.asDiagonal() * surface.mean_curvature_of));
+            // A uniform tension is a pressure, and dA/dt = 2 dV/dt = 0 makes one of the constraints redundant: fix the
+            // mean tension and allow for the redundant constraint's O(h^2) error.
+            system.block(n + tensions, n, 1, tensions) = surface.element_area.transpose() / surface.area();
+            system.block(n, n + tensions, tensions, 1).setOnes();
+        }
+        const Vector<S> bending_now = bending * surface.positions();
+        Vector<S> rhs = Vector<S>::Zero(unknowns);
+        rhs.head(n) = detail::without_flux<S>(surface, problem.background_velocity) + g * (bending_now + problem.load);
+
+        solver.factorize(system);
+        const Vector<S> x = solver.solve(rhs);
+        MobilitySolution<S> solution;
+        solution.velocity = x.head(n);
+        solution.tension = x.segment(n, tensions);
+        solution.bending = bending_now + time * (bending * solution.velocity);
+        solution.tension_force =
+            surface.tension_force * solution.tension + time * ((implicit - bending) * solution.velocity);
+        solution.force = solution.bending + solution.tension_force + problem.load;
+        return solution;
+    }
+
+  private:
+    template <class Surface>
+    static typename Surface::Operator along_normal(const Surface& surface, const typename Surface::Operator& scalar) {
+        using Operator = typename Surface::Operator;
+        const Index n = surface.size();
+        std::vector<Eigen::Triplet<S>> entries;
+        entries.reserve(static_cast<std::size_t>(2 * n));
+        for (Index i = 0; i < n; ++i) {
+            entries.emplace_back(static_cast<int>(i), static_cast<int>(i), surface.normal_r[i]);
+            entries.emplace_back(static_cast<int>(n + i), static_cast<int>(i), surface.normal_z[i]);
+        }
+        Operator spread(2 * n, n);
+        spread.setFromTriplets(entries.begin(), entries.end());
+        return spread * scalar;
+    }
+
+    /// A sphere has no area to spare: its tension grows without bound against any deformation, although div_s u = 0 alone
+    /// admits deformations to first order. The limit is a resistance to the rate of change of the curvature, large
+    /// against the viscous one of the fluid (which is 1 in these units).
+    static constexpr double saturated_resistance = 1e5;
+
+    /// Curvature variations of an excess area D are about sqrt(D); below 1e-6 the tension's mean is noise.
+    template <class Surface>
+    static bool is_sphere(const Surface& surface) {
+        const auto& h = surface.mean_curvature;
+        return h.maxCoeff() - h.minCoeff() < S(1e-3) * h.maxCoeff();
+    }
+};
+
+}  // namespace axistokes

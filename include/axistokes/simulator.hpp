@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+// A simulation assembled at compile time from six policies; see concepts.hpp for what each must offer.
+#pragma once
+
+#include "geometry/meridian_spline.hpp"
+#include "geometry/remesh.hpp"
+#include "geometry/restore.hpp"
+#include "scene.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+namespace axistokes {
+
+/// TimeIntegratorFor<Scene>: `step(scene, configuration, dt)` evaluates the scene once or more and returns the displaced
+/// meridian, relative to the moved centroid, the centroid's displacement and the instant the motion started from.
+template <class T, class SceneType>
+concept TimeIntegratorFor = requires(const T& integrator, SceneType& scene,
+                                     const Configuration<typename SceneType::Scalar>& start,
+                                     typename SceneType::Scalar dt) {
+    { T::order } -> std::convertible_to<int>;
+    { integrator.step(scene, start, dt).shape } -> std::convertible_to<Meridian<typename SceneType::Scalar>>;
+    { integrator.step(scene, start, dt).displacement } -> std::convertible_to<typename SceneType::Scalar>;
+    { integrator.step(scene, start, dt).instant } -> std::convertible_to<typename SceneType::InstantType>;
+};
+
+/// One line of a simulation's history: the state a step arrived at, with the velocities that led to it. Dimensionless:
+/// lengths in R0, times in eta R0^3/kappa, velocities in kappa/(eta R0^2), energies in kappa.
+template <class S>
+struct StepRecord {
+    Index step = 0;
+    S time{};
+    S dt{};
+    S position{};         // centroid in the laboratory frame
+    S velocity{};         // of the centroid
+    S length{};           // along the axis
+    S max_radius{};
+    S area{};
+    S volume{};
+    S area_drift{};       // relative to the initial shape, after the step's correction
+    S volume_drift{};
+    S area_error{};       // relative change in this step before the correction
+    S volume_error{};
+    S bending_energy{};   // 2 Int H^2 dA
+    S residual{};         // largest normal velocity relative to the centroid, over the velocity scale
+    Index rejected = 0;   // attempts with larger steps before this one
+    bool redistributed = false;
+};
+
+/// Step control, stationarity and meshing of a Simulator.
+template <class S>
+struct SimulationParams {
+    /// Stationary: residual below this, in (0, 1). Velocity scale: the larger of 1 and the background's.
+    S tolerance = S(1e-5);
+    /// A fixed step if given; then nothing is retried.
+    std::optional<S> time_step;
+    S first_time_step = S(1e-3);
+    S largest_time_step = S(1);
+    S smallest_time_step = S(1e-9);
+    /// Largest normal displacement in a step, in R0.
+    S largest_displacement = S(0.02);
+    /// Growth of the automatic step from one step to the next.
+    S growth = S(1.3);
+    Index most_steps = 20000;
+    S longest_time = std::numeric_limits<S>::max();
+    NodeSpacing<S> spacing;
+    /// Nodes are redistributed when an interval differs from the wanted one by more than this factor.
+    S largest_distortion = S(1.2);
+};
+
+namespace detail {
+
+template <class S>
+void validate(const SimulationParams<S>& p) {
+    require(p.tolerance > S(0) && p.tolerance < S(1), "stationarity tolerance", p.tolerance, "in (0, 1)");
+    if (p.time_step) {
+        require(*p.time_step > S(0), "time step", *p.time_step, "> 0");
+    }
+    require(p.smallest_time_step > S(0), "smallest time step", p.smallest_time_step, "> 0");
+    require(p.first_time_step >= p.smallest_time_step, "first time step", p.first_time_step,
+            "at least the smallest time step");
+    require(p.largest_time_step >= p.first_time_step, "largest time step", p.largest_time_step,
+            "at least the first time step");
+    require(p.largest_displacement > S(0), "largest displacement", p.largest_displacement, "> 0");
+    require(p.growth > S(1), "growth of the time step", p.growth, "> 1");
+    require(p.most_steps >= 1, "number of steps", p.most_steps, "at least 1");
+    require(p.longest_time > S(0), "longest time", p.longest_time, "> 0");
+    require(p.spacing.curvature_weight >= S(0), "curvature weight", p.spacing.curvature_weight, ">= 0");
+    require(p.spacing.smoothing >= S(0), "smoothing of the node density", p.spacing.smoothing, ">= 0");
+    require(p.largest_distortion > S(1), "largest distortion", p.largest_distortion, "> 1");
+}
+
+}  // namespace detail
+
+/// A vesicle or rigid body in a flow, from an initial shape to any later time or to its stationary state.
+///
+/// Failures (a singular system, a self-intersection, a step below the smallest) throw SimulationFailure with the cause;
+/// the configuration and the history then are those of the last good step.
+template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Membrane, Background Flow,
+          class Integrator, LinearSolver Solver>
+    requires MembraneFor<Membrane, typename Discretization::Surface, Solver> &&
+             TimeIntegratorFor<Integrator, Scene<Kernel, Discretization, Membrane, Flow, Solver>>
+class Simulator {
+  public:
+    using Scalar = typename Kernel::Scalar;
+    using SceneType = Scene<Kernel, Discretization, Membrane, Flow, Solver>;
+    using InstantType = typename SceneType::InstantType;
+    using Record = StepRecord<Scalar>;
+    using Params = SimulationParams<Scalar>;
+
+    /// Throws InvalidArgument when the shape is not a valid meridian or a parameter is out of range.
+    explicit Simulator(const Meridian<Scalar>& shape, Flow flow, Params params = {}, Kernel kernel = Kernel{},
+                       Discretization discretization = Discretization{}, Membrane membrane = Membrane{},
+                       Integrator integrator = Integrator{}, Solver solver = Solver{})
+        : params_(params),
+          scene_(std::move(kernel), std::move(discretization), std::move(membrane), std::move(flow), std::move(solver)),
+          integrator_(std::move(integrator)) {
+        detail::validate(params);
+        validate(shape);
+        const Measures<Scalar> measures = MeridianSpline<Scalar>(shape).measures();
+        configuration_.shape = shape;
+        configuration_.shape.z.array() -= measures.centroid;
+        configuration_.position = measures.centroid;
+        area_ = measures.area;
+        volume_ = measures.volume;
+        dt_ = params.time_step.value_or(params.first_time_step);
+    }
+
+    const SceneType& scene() const { return scene_; }
+    const Params& params() const { return params_; }
+    const Configuration<Scalar>& configuration() const { return configuration_; }
+    const std::vector<Record>& history() const { return history_; }
+    Scalar initial_area() const { return area_; }
+    Scalar initial_volume() const { return volume_; }
+
+    /// Whether the last step met the stationarity tolerance.
+    bool stationary() const { return !history_.empty() && history_.back().residual < params_.tolerance; }
+
+    /// The shape in the laboratory frame.
+    Meridian<Scalar> shape() const {
+        Meridian<Scalar> shape = configuration_.shape;
+        shape.z.array() += configuration_.position;
+        return shape;
+    }
+
+    /// Velocities and forces on the current shape.
+    InstantType instant() { return scene_.evaluate(configuration_, Scalar(0)); }
+
+    /// One time step. Throws SimulationFailure, leaving the state as it was.
+    const Record& step() {
+        Index rejected = 0;
+        for (;;) {
+            std::string cause;
+            if (auto attempt = try_step(cause)) {
+                attempt->record.rejected = rejected;
+                accept(std::move(*attempt));
+                return history_.back();
+            }
+            if (params_.time_step) {
+                fail("time step " + text(dt_) + " is too large: " + cause);
+            }
+            dt_ /= 2;
+            ++rejected;
+            if (dt_ < params_.smallest_time_step) {
+                fail("the time step fell below " + text(params_.smallest_time_step) + ": " + cause);
+            }
+        }
+    }
+
+    /// Steps until stationary (true), or until most_steps or longest_time (false). `observe(record)` is called after
+    /// every step; if it returns bool, false stops the run.
+    template <class Observer>
+    bool run(Observer observe) {
+        const Index last = static_cast<Index>(history_.size()) + params_.most_steps;
+        while (static_cast<Index>(history_.size()) < last && time_ < params_.longest_time) {
+            const Record& record = step();
+            if constexpr (std::is_convertible_v<decltype(observe(record)), bool>) {
+                if (!observe(record)) {
+                    return stationary();
+                }
+            } else {
+                observe(record);
+            }
+            if (stationary()) {
+                return true;
+            }
+        }
+        return false;
+    }
+    bool run() {
+        return run([](const Record&) {});
+    }
+
+  private:
+    struct Attempt {
+        Configuration<Scalar> configuration;
+        Record record;
+    };
+
+    static std::string text(const Scalar& value) {
+        std::ostringstream out;
+        out << value;
+        return out.str();
+    }
+
+    [[noreturn]] void fail(const std::string& cause) const {
+        throw SimulationFailure("step " + std::to_string(history_.size() + 1) + " at time " + text(time_) + ": " +
+                                cause);
+    }
+
+    std::optional<Attempt> try_step(std::string& cause) {
+        using std::abs;
+        auto step = [&] {
+            try {
+                return std::optional(integrator_.step(scene_, configuration_, dt_));
+            } catch (const SimulationFailure& failure) {
+                cause = failure.what();
+                return std::optional<decltype(integrator_.step(scene_, configuration_, dt_))>();
+            }
+        }();
+        if (!step) {
+            return std::nullopt;
+        }
+        Attempt attempt;
+        Record& record = attempt.record;
+        record.residual = step->instant.deformation_rate / std::max(Scalar(1), scene_.flow().velocity_scale());
+        record.velocity = step->instant.velocity;
+        Configuration<Scalar>& next = attempt.configuration;
+        next.position = configuration_.position + step->displacement;
+        next.shape = std::move(step->shape);
+        if constexpr (Membrane::deformable) {
+            next.tension = std::move(step->instant.solution.tension);
+            const Scalar displacement = step->instant.deformation_rate * dt_;
+            if (!params_.time_step && !(displacement <= 2 * params_.largest_displacement)) {
+                cause = "the membrane would move by " + text(displacement) + " R0";
+                return std::nullopt;
+            }
+            if (!deform(next, record, cause)) {
+                return std::nullopt;
+            }
+        }
+        describe(next, record);
+        if constexpr (Membrane::deformable && !Flow::has_flow && !Flow::has_load) {
+            // Nothing drives the membrane: its bending energy can only fall.
+            const Scalar before = history_.empty() ? initial_energy() : history_.back().bending_energy;
+            if (!params_.time_step && record.bending_energy > before * (1 + Scalar(1e-3))) {
+                cause = "the bending energy would rise from " + text(before) + " to " + text(record.bending_energy);
+                return std::nullopt;
+            }
+        }
+        return attempt;
+    }
+
+    static Scalar energy_noise() { return 1000 * std::numeric_limits<Scalar>::epsilon(); }
+
+    /// Checks and corrects a displaced shape; false, with the cause, if it cannot be used.
+    bool deform(Configuration<Scalar>& next, Record& record, std::string& cause) const {
+        Meridian<Scalar>& shape = next.shape;
+        if (!shape.r.allFinite() || !shape.z.allFinite()) {
+            cause = "a node's position is not finite";
+            return false;
+        }
+        if (!(shape.r.segment(1, shape.nodes() - 2).minCoeff() > Scalar(0))) {
+            cause = "a node crossed the axis";
+            return false;
+        }
+        if (const auto crossing = self_intersection(shape)) {
+            cause = "the membrane intersects itself at nodes " + std::to_string(crossing->first) + " and " +
+                    std::to_string(crossing->second);
+            return false;
+        }
+        const Measures<Scalar> raw = MeridianSpline<Scalar>(shape).measures();
+        record.area_error = raw.area / area_ - 1;
+        record.volume_error = raw.volume / volume_ - 1;
+        if (!restore_area_and_volume<Scalar>(shape, area_, volume_, 1000 * std::numeric_limits<Scalar>::epsilon())) {
+            cause = "area and volume drifted by " + text(record.area_error) + " and " + text(record.volume_error) +
+                    " and could not be restored";
+            return false;
+        }
+        if (spacing_distortion(shape, params_.spacing) > params_.largest_distortion) {
+            shape = redistribute(shape, params_.spacing, shape.elements());
+            record.redistributed = true;
+        }
+        return true;
+    }
+
+    Scalar initial_energy() const {
+        return Membrane::bending_energy(scene_.discretization().surface(configuration_.shape));
+    }
+
+    void describe(Configuration<Scalar>& next, Record& record) const {
+        const MeridianSpline<Scalar> spline(next.shape);
+        const Measures<Scalar> measures = spline.measures();
+        next.shape.z.array() -= measures.centroid;
+        next.position += measures.centroid;
+        record.step = static_cast<Index>(history_.size()) + 1;
+        record.time = time_ + dt_;
+        record.dt = dt_;
+        record.position = next.position;
+        record.length = next.shape.z[next.shape.nodes() - 1] - next.shape.z[0];
+        record.max_radius = spline.max_radius();
+        record.area = measures.area;
+        record.volume = measures.volume;
+        record.area_drift = measures.area / area_ - 1;
+        record.volume_drift = measures.volume / volume_ - 1;
+        if constexpr (Membrane::deformable) {
+            record.bending_energy = Membrane::bending_energy(scene_.discretization().surface(next.shape));
+        }
+    }
+
+    void accept(Attempt attempt) {
+        const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.flow().velocity_scale());
+        time_ = attempt.record.time;
+        configuration_ = std::move(attempt.configuration);
+        history_.push_back(attempt.record);
+        if (!params_.time_step) {
+            dt_ *= params_.growth;
+            if (rate * dt_ > params_.largest_displacement) {
+                dt_ = params_.largest_displacement / rate;
+            }
+            dt_ = std::min(dt_, params_.largest_time_step);
+        }
+    }
+
+    Params params_;
+    SceneType scene_;
+    Integrator integrator_;
+    Configuration<Scalar> configuration_;
+    std::vector<Record> history_;
+    Scalar area_{};
+    Scalar volume_{};
+    Scalar time_{};
+    Scalar dt_{};
+};
+
+}  // namespace axistokes
