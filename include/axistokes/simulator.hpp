@@ -199,6 +199,7 @@ class Simulator {
     struct Attempt {
         Configuration<Scalar> configuration;
         Record record;
+        Vector<Scalar> motion;  // velocity relative to the centroid, stacked
     };
 
     static std::string text(const Scalar& value) {
@@ -233,6 +234,8 @@ class Simulator {
         next.position = configuration_.position + step->displacement;
         next.shape = std::move(step->shape);
         if constexpr (Membrane::deformable) {
+            attempt.motion = step->instant.solution.velocity;
+            attempt.motion.tail(next.shape.nodes()).array() -= record.velocity;
             next.tension = std::move(step->instant.solution.tension);
             const Scalar displacement = step->instant.deformation_rate * dt_;
             if (!params_.time_step && !(displacement <= 2 * params_.largest_displacement)) {
@@ -260,17 +263,7 @@ class Simulator {
     /// Checks and corrects a displaced shape; false, with the cause, if it cannot be used.
     bool deform(Configuration<Scalar>& next, Record& record, std::string& cause) const {
         Meridian<Scalar>& shape = next.shape;
-        if (!shape.r.allFinite() || !shape.z.allFinite()) {
-            cause = "a node's position is not finite";
-            return false;
-        }
-        if (!(shape.r.segment(1, shape.nodes() - 2).minCoeff() > Scalar(0))) {
-            cause = "a node crossed the axis";
-            return false;
-        }
-        if (const auto crossing = self_intersection(shape)) {
-            cause = "the membrane intersects itself at nodes " + std::to_string(crossing->first) + " and " +
-                    std::to_string(crossing->second);
+        if (!usable(shape, cause)) {
             return false;
         }
         const Measures<Scalar> raw = MeridianSpline<Scalar>(shape).measures();
@@ -284,6 +277,23 @@ class Simulator {
         if (spacing_distortion(shape, params_.spacing) > params_.largest_distortion) {
             shape = redistribute(shape, params_.spacing, shape.elements());
             record.redistributed = true;
+        }
+        return usable(shape, cause);
+    }
+
+    static bool usable(const Meridian<Scalar>& shape, std::string& cause) {
+        if (!shape.r.allFinite() || !shape.z.allFinite()) {
+            cause = "a node's position is not finite";
+            return false;
+        }
+        if (!(shape.r.segment(1, shape.nodes() - 2).minCoeff() > Scalar(0))) {
+            cause = "a node crossed the axis";
+            return false;
+        }
+        if (const auto crossing = self_intersection(shape)) {
+            cause = "the membrane intersects itself at nodes " + std::to_string(crossing->first) + " and " +
+                    std::to_string(crossing->second);
+            return false;
         }
         return true;
     }
@@ -314,11 +324,19 @@ class Simulator {
 
     void accept(Attempt attempt) {
         const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.flow().velocity_scale());
+        const bool accelerating = !history_.empty() && attempt.record.residual > history_.back().residual;
+        // A step that is too long overshoots: the next one goes back.
+        const bool reversed = motion_.size() > 0 && attempt.motion.dot(motion_) < Scalar(0);
+        motion_ = std::move(attempt.motion);
         time_ = attempt.record.time;
         configuration_ = std::move(attempt.configuration);
         history_.push_back(attempt.record);
         if (!params_.time_step) {
-            dt_ *= params_.growth;
+            if (reversed) {
+                dt_ /= 2;
+            } else if (!accelerating || rate * dt_ < params_.largest_displacement / 10) {
+                dt_ *= params_.growth;
+            }
             if (rate * dt_ > params_.largest_displacement) {
                 dt_ = params_.largest_displacement / rate;
             }
@@ -331,6 +349,7 @@ class Simulator {
     Integrator integrator_;
     Configuration<Scalar> configuration_;
     std::vector<Record> history_;
+    Vector<Scalar> motion_;  // of the last step
     Scalar area_{};
     Scalar volume_{};
     Scalar time_{};
