@@ -50,12 +50,6 @@ class Vesicle {
         return along_normal(surface, scalar);
     }
 
-    /// 2 Int H^2 dA, in kappa.
-    template <class Surface>
-    static S bending_energy(const Surface& surface) {
-        return 2 * surface.weight.dot(surface.mean_curvature.cwiseAbs2());
-    }
-
     /// Velocities, forces and tension of a vesicle. The unknowns are (u, gamma) of
     ///   u - t G F u - G T gamma = u_inf + G (F x + load),    D u = 0,
     /// with t = problem.implicit_time, F the bending operator and T, D the tension force and the divergence. Tension
