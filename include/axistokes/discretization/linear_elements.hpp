@@ -5,8 +5,9 @@
 // Order of the rule. On the line through an element of length L the kernel's only singularity near the element is at
 // the target x0, seen in the complexified parameter: the kernel is analytic in the ellipse whose foci are the element's
 // ends and whose axis sum is rho = a + sqrt(a^2 - 1), a = (|x0 - x1| + |x0 - x2|)/L. Gauss-Legendre with n nodes errs by
-// O(rho^(-2n)) (Trefethen, Approximation Theory and Practice, theorem 19.3), so n = log(1/tolerance) / (2 log rho). If
-// that exceeds the largest order the element is halved. When x0 is one of the ends, M = smooth + log_coefficient
+// O(rho^(-2n)) times the integrand's growth on the ellipse (Trefethen, Approximation Theory and Practice, theorem 19.3),
+// which is up to rho^2 for the ring's radius and the hat function, so n = 1 + log(1/tolerance) / (2 log rho). If that
+// exceeds the largest order the element is halved. When x0 is one of the ends, M = smooth + log_coefficient
 // log(m1), and on a straight element m1 = L^2 t^2 / ((r + r0)^2 + (z - z0)^2): a product rule takes log t exactly, and
 // the nearest singularity is the mirror point (-r0, z0).
 #pragma once
@@ -33,8 +34,8 @@ class LinearElements {
         S tolerance = default_tolerance();
 
         static S default_tolerance() {
-            // Four orders below what hundreds of elements resolve, and within reach of single precision.
-            const S wanted = S(1e-8);
+            // Well below what hundreds of elements resolve (1e-5), and within reach of single precision.
+            const S wanted = S(1e-6);
             const S reachable = 16 * std::numeric_limits<S>::epsilon();
             return wanted > reachable ? wanted : reachable;
         }
@@ -46,9 +47,9 @@ class LinearElements {
         using std::log;
         // A half-axis sum a >= needed_[n] makes n nodes enough.
         const S digits = log(S(1) / params_.tolerance);
-        needed_.push_back(std::numeric_limits<S>::infinity());
-        for (Index n = 1; n <= rules_.largest(); ++n) {
-            needed_.push_back(cosh(digits / S(2 * n)));
+        needed_.assign(2, std::numeric_limits<S>::infinity());
+        for (Index n = 2; n <= rules_.largest(); ++n) {
+            needed_.push_back(cosh(digits / S(2 * n - 2)));
         }
     }
 
@@ -83,12 +84,15 @@ class LinearElements {
   private:
     static constexpr Index smallest_order = 2;
     static constexpr int deepest_halving = 60;
+    /// Least half-axis sum towards the mirror point in a product rule: m1 < 0.12 on its part of the element. Closer to
+    /// the axis the kernel's split is a difference of steep polynomials in m1.
+    static constexpr int mirror_clearance = 7;
 
     /// A rule of p nodes reaches the tolerance when the target is no closer than half an element (a = sqrt 2 at least).
     static Index largest_order(const S& tolerance) {
         using std::log;
         const double digits = static_cast<double>(log(S(1) / tolerance));
-        return std::max<Index>(4, 2 * static_cast<Index>(std::ceil(digits / (4 * std::log(1.0 + std::sqrt(2.0))))) + 2);
+        return std::max<Index>(4, 2 * static_cast<Index>(std::ceil(digits / (4 * std::log(1.0 + std::sqrt(2.0))))) + 4);
     }
 
     static Params checked(Params params) {
@@ -248,14 +252,14 @@ class LinearElements {
         Index n = smallest_order;
         S part = 1;
         if (target.r > S(0)) {
-            const auto mirror_order = [&] {
-                return order(2 * target.r + distance(-target.r, S(0), target.r + part * dr, part * dz), part * length);
+            const auto mirror_sum = [&] {
+                return 2 * target.r + distance(-target.r, S(0), target.r + part * dr, part * dz);
             };
-            for (n = mirror_order(); n == 0; n = mirror_order()) {
+            while (mirror_sum() < mirror_clearance * part * length) {
                 part /= 2;
             }
             // The product rule interpolates: rho^(-n) instead of rho^(-2n).
-            n = std::min(2 * n, rules_.largest());
+            n = std::min(2 * order(mirror_sum(), part * length), rules_.largest());
         }
         if (part < S(1)) {
             const S near = part * length;
