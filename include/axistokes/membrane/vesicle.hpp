@@ -7,7 +7,9 @@
 
 #include "../concepts.hpp"
 
-#include <cmath>
+#include <Eigen/SparseCore>
+
+#include <vector>
 
 namespace axistokes {
 
