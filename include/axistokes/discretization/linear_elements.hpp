@@ -4,15 +4,15 @@
 //
 // Order of the rule. On the line through an element of length L the kernel's only singularity near the element is at
 // the target x0, seen in the complexified parameter: the kernel is analytic in the ellipse whose foci are the element's
-// ends and whose axis sum is rho = a + sqrt(a^2 - 1), a = (|x0 - x1| + |x0 - x2|)/L. Gauss-Legendre with n nodes errs by
-// O(rho^(-2n)) times the integrand's growth on the ellipse (Trefethen, Approximation Theory and Practice, theorem 19.3),
-// which is up to rho^2 for the ring's radius and the hat function, so n = 1 + log(1/tolerance) / (2 log rho). If that
-// exceeds the largest order the element is halved. When x0 is one of the ends, M = smooth + log_coefficient
-// log(m1), and on a straight element m1 = L^2 t^2 / ((r + r0)^2 + (z - z0)^2): a product rule takes log t exactly, and
-// the nearest singularity is the mirror point (-r0, z0).
+// ends and whose axis sum is rho = a + sqrt(a^2 - 1), a = (|x0 - x1| + |x0 - x2|)/L. Gauss-Legendre with n nodes errs
+// by O(rho^(-2n)) times the integrand's growth on the ellipse (Trefethen, Approximation Theory and Practice,
+// theorem 19.3), which is up to rho^2 for the ring's radius and the hat function, so n = 1 + log(1/tolerance) / (2 log
+// rho). If that exceeds the largest order the element is halved. When x0 is one of the ends, M = smooth +
+// log_coefficient log(m1), and on a straight element m1 = L^2 t^2 / ((r + r0)^2 + (z - z0)^2): a product rule takes log
+// t exactly, and the nearest singularity is the mirror point (-r0, z0).
 #pragma once
 
-#include "../core.hpp"
+#include "../geometry/spline_geometry.hpp"
 #include "../quadrature/gauss_legendre.hpp"
 #include "linear_surface.hpp"
 
@@ -24,7 +24,7 @@ namespace axistokes {
 
 /// Discretisation policy: P1 elements.
 template <class S = double>
-class LinearElements {
+class LinearElements : public SplineGeometry<S> {
   public:
     using Scalar = S;
     using Surface = LinearSurface<S>;
@@ -32,6 +32,7 @@ class LinearElements {
     struct Params {
         /// Relative error allowed in each element's integrals, in (0, 0.1]. The elements themselves err by O(h^2).
         S tolerance = default_tolerance();
+        MeshingParams<S> meshing;
 
         static S default_tolerance() {
             // Well below what hundreds of elements resolve (1e-5), and within reach of single precision.
@@ -41,8 +42,9 @@ class LinearElements {
         }
     };
 
-    /// Throws InvalidArgument when the tolerance is not in (0, 0.1].
-    explicit LinearElements(Params params = {}) : params_(checked(params)), rules_(largest_order(params.tolerance)) {
+    /// Throws InvalidArgument when the tolerance is not in (0, 0.1] or a meshing parameter is out of range.
+    explicit LinearElements(Params params = {})
+        : SplineGeometry<S>(params.meshing), params_(checked(params)), rules_(largest_order(params.tolerance)) {
         using std::cosh;
         using std::log;
         // A half-axis sum a >= needed_[n] makes n nodes enough.
