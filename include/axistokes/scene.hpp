@@ -27,6 +27,8 @@ struct Instant {
     S velocity{};  // of the centroid, along z
     /// Largest normal velocity relative to the centroid's: 0 in a stationary state.
     S deformation_rate{};
+    /// Largest difference of the undisturbed flow along an element over its length.
+    S shear_rate{};
 };
 
 /// How close the membrane comes to the wall, in R0.
@@ -73,6 +75,7 @@ class Scene {
         const Index n = surface.size();
         Matrix<Scalar> mobility = discretization_.single_layer(configuration.shape, kernel_);
         Vector<Scalar> background = background_velocity(configuration);
+        instant.shear_rate = shear_rate(configuration.shape, background);
         if constexpr (Wall::present) {
             Meridian<Scalar> particle = configuration.shape;
             particle.z.array() += configuration.position;
@@ -154,6 +157,22 @@ class Scene {
     }
 
   private:
+    static Scalar shear_rate(const Meridian<Scalar>& shape, const Vector<Scalar>& background) {
+        using std::sqrt;
+        Scalar largest = 0;
+        if constexpr (Flow::has_flow) {
+            const Index n = shape.nodes();
+            for (Index i = 0; i + 1 < n; ++i) {
+                const auto square = [](const Scalar& a, const Scalar& b) { return (a - b) * (a - b); };
+                const Scalar du =
+                    square(background[i + 1], background[i]) + square(background[n + i + 1], background[n + i]);
+                const Scalar dx = square(shape.r[i + 1], shape.r[i]) + square(shape.z[i + 1], shape.z[i]);
+                largest = std::max<Scalar>(largest, sqrt(du / dx));
+            }
+        }
+        return largest;
+    }
+
     /// Gravity's load is taken relative to the centroid: the rest is a uniform pressure.
     Vector<Scalar> normal_load(const Configuration<Scalar>& configuration, const Surface& surface) const {
         const Index n = configuration.shape.nodes();

@@ -67,7 +67,7 @@ Meridian<S> spheroid(const S& a, const S& c, Index elements, const NodeSpacing<S
     for (Index i = 0; i <= fine; ++i) {
         angle[i] = pi * S(i) / S(fine);
     }
-    const CubicSpline<S> density = detail::node_density(MeridianSpline<S>(at_angles(angle)), spacing);
+    const CubicSpline<S> density = detail::node_density(MeridianSpline<S>(at_angles(angle)), spacing, elements);
     Vector<S> cumulative(fine + 1);
     cumulative[0] = 0;
     for (Index e = 0; e < fine; ++e) {
