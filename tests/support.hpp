@@ -30,6 +30,17 @@ std::string refusal(const Action& action) {
     return "nothing was thrown";
 }
 
+/// The message of the SimulationFailure that `action` throws, likewise.
+template <class Action>
+std::string failure(const Action& action) {
+    try {
+        action();
+    } catch (const SimulationFailure& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
 inline bool mentions(const std::string& message, const std::string& argument, const std::string& value,
                      const std::string& accepted) {
     return message.find(argument) != std::string::npos && message.find(value) != std::string::npos &&
