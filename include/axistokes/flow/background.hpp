@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gravity.hpp"
+#include "poiseuille.hpp"
 #include "quiescent.hpp"
 #include "sum.hpp"
 #include "unbounded_poiseuille.hpp"
