@@ -12,6 +12,7 @@ namespace {
 using axistokes::Background;
 using axistokes::Gravity;
 using axistokes::Point;
+using axistokes::Poiseuille;
 using axistokes::Quiescent;
 using axistokes::Sum;
 using axistokes::UnboundedPoiseuille;
@@ -19,7 +20,7 @@ using axistokes::test::mentions;
 using axistokes::test::refusal;
 
 static_assert(Background<Quiescent<double>> && Background<Gravity<float>>);
-static_assert(Background<UnboundedPoiseuille<long double>>);
+static_assert(Background<UnboundedPoiseuille<long double>> && Background<Poiseuille<double>>);
 static_assert(Background<Sum<Gravity<double>, Sum<Quiescent<double>, UnboundedPoiseuille<double>>>>);
 static_assert(!Quiescent<double>::has_flow && !Quiescent<double>::has_load);
 static_assert(!Gravity<double>::has_flow && Gravity<double>::has_load);
@@ -57,6 +58,19 @@ TEST_CASE("unbounded Poiseuille flow", "[background]") {
     CHECK(flow.velocity_scale() == 0.8);
     CHECK(UnboundedPoiseuille<double>(-0.8).velocity_scale() == 0.8);
     CHECK(UnboundedPoiseuille<double>(-0.8).velocity({1.0, 0.0}).z == 0.8);
+}
+
+TEST_CASE("Poiseuille flow vanishes on the tube", "[background]") {
+    const Poiseuille<double> flow(5.0, 2.0);
+    CHECK(flow.velocity({0.0, 3.0}).z == 5.0);
+    CHECK(flow.velocity({1.0, 3.0}).z == Approx(3.75));
+    CHECK(flow.velocity({2.0, 3.0}).z == 0.0);
+    CHECK(flow.velocity({1.0, 3.0}).r == 0.0);
+    CHECK(flow.mean_velocity() == 2.5);
+    CHECK(flow.velocity_scale() == 5.0);
+    for (const double radius : {0.0, -1.0}) {
+        CHECK(mentions(refusal([=] { Poiseuille<double>(1.0, radius); }), "tube radius", "=", "> 0 and finite"));
+    }
 }
 
 TEST_CASE("sums add flows and loads and have what either has", "[background]") {
