@@ -5,6 +5,8 @@
 #include "discretization/linear_elements.hpp"
 #include "flow/background.hpp"
 #include "geometry/shapes.hpp"
+#include "io/csv.hpp"
+#include "io/vtk.hpp"
 #include "kernel/free_space.hpp"
 #include "membrane/rigid_body.hpp"
 #include "membrane/vesicle.hpp"
