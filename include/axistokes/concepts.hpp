@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core.hpp"
+#include "geometry/measures.hpp"
 #include "geometry/meridian.hpp"
 
 #include <concepts>
@@ -10,8 +11,8 @@
 namespace axistokes {
 
 /// GreenKernel: the velocity M_ab(x0, x) at a target due to a ring of forces, without the factor 1/(8 pi), with the
-/// ring's Jacobian r. The singular part, pairwise, carries the free-space logarithm log(m1): `singular` evaluates it for
-/// arrays of sources, `singular_split` as smooth + log_coefficient log(m1). A kernel with has_regular_part = true
+/// ring's Jacobian r. The singular part, pairwise, carries the free-space logarithm log(m1): `singular` evaluates it
+/// for arrays of sources, `singular_split` as smooth + log_coefficient log(m1). A kernel with has_regular_part = true
 /// additionally has a smooth correction that is evaluated for all points at once.
 template <class K>
 concept GreenKernel = requires(const K& kernel, Point<typename K::Scalar> target, const typename K::Scalar* coordinate,
@@ -25,14 +26,22 @@ concept GreenKernel = requires(const K& kernel, Point<typename K::Scalar> target
 /// geometry: nodal weights of Int dA, outward normals, curvatures, and the linear operators (Laplacian, divergence,
 /// tension force) as matrices of whatever type multiplies vectors. `single_layer(meridian, kernel)` is the matrix from
 /// nodal force densities, stacked [r; z], to nodal velocities; `single_layer_at` the same for targets off the surface.
+/// The curve between the nodes is the discretisation's too: `measures`, `max_radius`, `bending_energy` and
+/// `pole_curvatures` of it, `restore(shape, area, volume)` after a step, and `redistribute(shape)` when the nodes have
+/// drifted; the last two tell whether they did.
 template <class D, class Kernel>
-concept DiscretizationFor =
-    GreenKernel<Kernel> && std::same_as<typename D::Scalar, typename Kernel::Scalar> &&
+concept DiscretizationFor = GreenKernel<Kernel> && std::same_as<typename D::Scalar, typename Kernel::Scalar> &&
     requires(const D& discretization, const Meridian<typename D::Scalar>& meridian, const Kernel& kernel) {
-        typename D::Surface;
-        { discretization.surface(meridian) } -> std::same_as<typename D::Surface>;
-        { discretization.single_layer(meridian, kernel) } -> std::convertible_to<Matrix<typename D::Scalar>>;
-    };
+    typename D::Surface;
+    { discretization.surface(meridian) } -> std::same_as<typename D::Surface>;
+    { discretization.single_layer(meridian, kernel) } -> std::convertible_to<Matrix<typename D::Scalar>>;
+} && requires(const D& discretization, Meridian<typename D::Scalar>& shape, typename D::Scalar value) {
+    { discretization.measures(shape) } -> std::convertible_to<Measures<typename D::Scalar>>;
+    { discretization.max_radius(shape) } -> std::convertible_to<typename D::Scalar>;
+    { discretization.bending_energy(shape) } -> std::convertible_to<typename D::Scalar>;
+    { discretization.restore(shape, value, value) } -> std::convertible_to<bool>;
+    { discretization.redistribute(shape) } -> std::convertible_to<bool>;
+};
 
 /// Background: what drives the scene. `velocity(point)` is the undisturbed flow, `normal_load(point)` the normal force
 /// density on the membrane (gravity); has_flow and has_load tell which of the two exist, and what does not exist is
@@ -48,11 +57,10 @@ concept Background = requires(const B& background, Point<typename B::Scalar> poi
 /// LinearSolver: `factorize(A)` prepares a square dense matrix, `solve(b)` returns x with A x = b. Both throw
 /// SimulationFailure when the matrix is singular or an iteration does not converge.
 template <class L>
-concept LinearSolver =
-    requires(L& solver, const Matrix<typename L::Scalar>& a, const Vector<typename L::Scalar>& b) {
-        { solver.factorize(a) } -> std::same_as<void>;
-        { solver.solve(b) } -> std::convertible_to<Vector<typename L::Scalar>>;
-    };
+concept LinearSolver = requires(L& solver, const Matrix<typename L::Scalar>& a, const Vector<typename L::Scalar>& b) {
+    { solver.factorize(a) } -> std::same_as<void>;
+    { solver.solve(b) } -> std::convertible_to<Vector<typename L::Scalar>>;
+};
 
 /// The quasi-static problem a membrane solves: a frozen surface, its single layer (velocity = mobility * nodal force
 /// density), the background at the nodes, and how implicit the membrane's forces are: they are evaluated at
@@ -77,14 +85,33 @@ struct MobilitySolution {
     Vector<S> tension;
 };
 
+/// ConfiningKernel: a kernel that vanishes on the wall of a straight tube of radius `tube_radius()` around the axis.
+/// `pressure_drop(surface, force)` is what a nodal force density adds to the pressure drop along the tube.
+template <class K>
+concept ConfiningKernel = GreenKernel<K> && requires(const K& kernel) {
+    { kernel.tube_radius() } -> std::convertible_to<typename K::Scalar>;
+};
+
+/// WallFor<Kernel, Discretization>: a wall with unknown tractions of its own. `confine` eliminates them: it turns the
+/// particle's mobility and background velocity in the wall's absence into those in its presence, for a particle given
+/// in the laboratory frame. `radius(z)` is the wall's distance from the axis. A policy with present = false has
+/// neither.
+template <class W, class Kernel, class Discretization>
+concept WallFor = !W::present ||
+                  requires(W & wall, const Discretization& discretization, const Kernel& kernel,
+                           const Meridian<typename Kernel::Scalar>& particle, Matrix<typename Kernel::Scalar>& mobility,
+                           Vector<typename Kernel::Scalar>& background, typename Kernel::Scalar z) {
+    { wall.confine(discretization, kernel, particle, mobility, background) } -> std::same_as<void>;
+    { wall.radius(z) } -> std::convertible_to<typename Kernel::Scalar>;
+};
+
 /// MembraneFor<Surface>: turns a MobilityProblem into velocities and forces with a given linear solver. `deformable`
 /// tells whether the shape can change; if not, time stepping reduces to one solve.
 template <class M, class Surface, class Solver>
-concept MembraneFor =
-    LinearSolver<Solver> &&
+concept MembraneFor = LinearSolver<Solver> &&
     requires(const M& membrane, const MobilityProblem<typename M::Scalar, Surface>& problem, Solver& solver) {
-        { M::deformable } -> std::convertible_to<bool>;
-        { membrane.solve(problem, solver) } -> std::same_as<MobilitySolution<typename M::Scalar>>;
-    };
+    { M::deformable } -> std::convertible_to<bool>;
+    { membrane.solve(problem, solver) } -> std::same_as<MobilitySolution<typename M::Scalar>>;
+};
 
 }  // namespace axistokes

@@ -3,7 +3,10 @@
 #pragma once
 
 #include "concepts.hpp"
+#include "wall/no_wall.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace axistokes {
@@ -26,29 +29,40 @@ struct Instant {
     S deformation_rate{};
 };
 
-/// Policies of a scene. Every policy comes by value and is const afterwards, but for the solver, which may keep factors
-/// between solves.
+/// How close the membrane comes to the wall, in R0.
+template <class S>
+struct FilmThickness {
+    S min = std::numeric_limits<S>::infinity();
+    /// Over the part of the meridian within 10 % of the largest radius, by arc length.
+    S mean = std::numeric_limits<S>::infinity();
+};
+
+/// Policies of a scene. Every policy comes by value and is const afterwards, but for the solver and the wall, which may
+/// keep factors between solves.
 template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Membrane, Background Flow,
-          LinearSolver Solver>
-    requires MembraneFor<Membrane, typename Discretization::Surface, Solver>
+          LinearSolver Solver, WallFor<Kernel, Discretization> Wall = NoWall>
+requires MembraneFor<Membrane, typename Discretization::Surface, Solver>
 class Scene {
   public:
     using Scalar = typename Kernel::Scalar;
     using Surface = typename Discretization::Surface;
     using InstantType = Instant<Scalar, Surface>;
+    static constexpr bool confined = ConfiningKernel<Kernel> || Wall::present;
 
-    Scene(Kernel kernel, Discretization discretization, Membrane membrane, Flow flow, Solver solver)
+    Scene(Kernel kernel, Discretization discretization, Membrane membrane, Flow flow, Solver solver, Wall wall = {})
         : kernel_(std::move(kernel)),
           discretization_(std::move(discretization)),
           membrane_(std::move(membrane)),
           flow_(std::move(flow)),
-          solver_(std::move(solver)) {}
+          solver_(std::move(solver)),
+          wall_(std::move(wall)) {}
 
     const Kernel& kernel() const { return kernel_; }
     const Discretization& discretization() const { return discretization_; }
     const Membrane& membrane() const { return membrane_; }
     const Flow& flow() const { return flow_; }
     const Solver& solver() const { return solver_; }
+    const Wall& wall() const { return wall_; }
 
     /// Velocities with the membrane's forces taken at x + implicit_time * u (0: at x).
     /// Throws SimulationFailure when the system cannot be solved.
@@ -57,8 +71,13 @@ class Scene {
         instant.surface = discretization_.surface(configuration.shape);
         const Surface& surface = instant.surface;
         const Index n = surface.size();
-        const Matrix<Scalar> mobility = discretization_.single_layer(configuration.shape, kernel_);
-        const Vector<Scalar> background = background_velocity(configuration);
+        Matrix<Scalar> mobility = discretization_.single_layer(configuration.shape, kernel_);
+        Vector<Scalar> background = background_velocity(configuration);
+        if constexpr (Wall::present) {
+            Meridian<Scalar> particle = configuration.shape;
+            particle.z.array() += configuration.position;
+            wall_.confine(discretization_, kernel_, particle, mobility, background);
+        }
         const Vector<Scalar> load = normal_load(configuration, surface);
         instant.solution = membrane_.solve(
             MobilityProblem<Scalar, Surface>{surface, mobility, background, load, configuration.tension, implicit_time},
@@ -97,6 +116,43 @@ class Scene {
         }
     }
 
+    /// Distance of the wall from the axis at z in the laboratory frame; infinite without a wall.
+    Scalar wall_radius(const Scalar& z) const {
+        Scalar radius = std::numeric_limits<Scalar>::infinity();
+        if constexpr (ConfiningKernel<Kernel>) {
+            radius = kernel_.tube_radius();
+        }
+        if constexpr (Wall::present) {
+            radius = std::min<Scalar>(radius, wall_.radius(z));
+        }
+        return radius;
+    }
+
+    /// Radial distances from the nodes to the wall; negative if a node is beyond it.
+    FilmThickness<Scalar> film_thickness(const Configuration<Scalar>& configuration) const {
+        using std::sqrt;
+        FilmThickness<Scalar> film;
+        if constexpr (confined) {
+            const Meridian<Scalar>& shape = configuration.shape;
+            const Scalar wide = shape.r.maxCoeff() * Scalar(0.9);
+            Scalar covered = 0;
+            Scalar sum = 0;
+            for (Index i = 1; i + 1 < shape.nodes(); ++i) {
+                const Scalar gap = wall_radius(shape.z[i] + configuration.position) - shape.r[i];
+                film.min = std::min(film.min, gap);
+                if (shape.r[i] >= wide) {
+                    const Scalar dr = shape.r[i + 1] - shape.r[i - 1];
+                    const Scalar dz = shape.z[i + 1] - shape.z[i - 1];
+                    const Scalar arc = sqrt(dr * dr + dz * dz);
+                    covered += arc;
+                    sum += arc * gap;
+                }
+            }
+            film.mean = sum / covered;
+        }
+        return film;
+    }
+
   private:
     /// Gravity's load is taken relative to the centroid: the rest is a uniform pressure.
     Vector<Scalar> normal_load(const Configuration<Scalar>& configuration, const Surface& surface) const {
@@ -117,6 +173,7 @@ class Scene {
     Membrane membrane_;
     Flow flow_;
     Solver solver_;
+    Wall wall_;
 };
 
 }  // namespace axistokes

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A simulation assembled at compile time from six policies; see concepts.hpp for what each must offer.
+// A simulation assembled at compile time from its policies; see concepts.hpp for what each must offer.
 #pragma once
 
-#include "geometry/curvature.hpp"
-#include "geometry/meridian_spline.hpp"
-#include "geometry/remesh.hpp"
-#include "geometry/restore.hpp"
 #include "scene.hpp"
 
 #include <cmath>
@@ -17,8 +13,9 @@
 
 namespace axistokes {
 
-/// TimeIntegratorFor<Scene>: `step(scene, configuration, dt)` evaluates the scene once or more and returns the displaced
-/// meridian, relative to the moved centroid, the centroid's displacement and the instant the motion started from.
+/// TimeIntegratorFor<Scene>: `step(scene, configuration, dt)` evaluates the scene once or more and returns the
+/// displaced meridian, relative to the moved centroid, the centroid's displacement and the instant the motion started
+/// from.
 template <class T, class SceneType>
 concept TimeIntegratorFor = requires(const T& integrator, SceneType& scene,
                                      const Configuration<typename SceneType::Scalar>& start,
@@ -36,23 +33,26 @@ struct StepRecord {
     Index step = 0;
     S time{};
     S dt{};
-    S position{};         // centroid in the laboratory frame
-    S velocity{};         // of the centroid
-    S length{};           // along the axis
+    S position{};  // centroid in the laboratory frame
+    S velocity{};  // of the centroid
+    S length{};    // along the axis
     S max_radius{};
     S area{};
     S volume{};
-    S area_drift{};       // relative to the initial shape, after the step's correction
+    S area_drift{};  // relative to the initial shape, after the step's correction
     S volume_drift{};
-    S area_error{};       // relative change in this step before the correction
+    S area_error{};  // relative change in this step before the correction
     S volume_error{};
-    S bending_energy{};   // 2 Int H^2 dA
-    S residual{};         // largest normal velocity relative to the centroid, over the velocity scale
-    Index rejected = 0;   // attempts with larger steps before this one
+    S bending_energy{};  // 2 Int H^2 dA
+    S residual{};        // largest normal velocity relative to the centroid, over the velocity scale
+    S film_thickness_min = std::numeric_limits<S>::infinity();  // distance to the wall
+    S film_thickness_mean = std::numeric_limits<S>::infinity();
+    S pressure_drop{};   // added by the particle, in kappa/R0^3; in tubes only
+    Index rejected = 0;  // attempts with larger steps before this one
     bool redistributed = false;
 };
 
-/// Step control, stationarity and meshing of a Simulator.
+/// Step control and stationarity of a Simulator.
 template <class S>
 struct SimulationParams {
     /// Stationary: residual below this, in (0, 1). Velocity scale: the larger of 1 and the background's.
@@ -68,9 +68,6 @@ struct SimulationParams {
     S growth = S(1.3);
     Index most_steps = 20000;
     S longest_time = std::numeric_limits<S>::max();
-    NodeSpacing<S> spacing;
-    /// Nodes are redistributed when an interval differs from the wanted one by more than this factor.
-    S largest_distortion = S(1.2);
 };
 
 namespace detail {
@@ -90,9 +87,6 @@ void validate(const SimulationParams<S>& p) {
     require(p.growth > S(1), "growth of the time step", p.growth, "> 1");
     require(p.most_steps >= 1, "number of steps", p.most_steps, "at least 1");
     require(p.longest_time > S(0), "longest time", p.longest_time, "> 0");
-    require(p.spacing.curvature_weight >= S(0), "curvature weight", p.spacing.curvature_weight, ">= 0");
-    require(p.spacing.smoothing >= S(0), "smoothing of the node density", p.spacing.smoothing, ">= 0");
-    require(p.largest_distortion > S(1), "largest distortion", p.largest_distortion, "> 1");
 }
 
 }  // namespace detail
@@ -102,33 +96,38 @@ void validate(const SimulationParams<S>& p) {
 /// Failures (a singular system, a self-intersection, a step below the smallest) throw SimulationFailure with the cause;
 /// the configuration and the history then are those of the last good step.
 template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Membrane, Background Flow,
-          class Integrator, LinearSolver Solver>
-    requires MembraneFor<Membrane, typename Discretization::Surface, Solver> &&
-             TimeIntegratorFor<Integrator, Scene<Kernel, Discretization, Membrane, Flow, Solver>>
+          class Integrator, LinearSolver Solver, WallFor<Kernel, Discretization> Wall = NoWall>
+requires MembraneFor<Membrane, typename Discretization::Surface, Solver> &&
+    TimeIntegratorFor<Integrator, Scene<Kernel, Discretization, Membrane, Flow, Solver, Wall>>
 class Simulator {
   public:
     using Scalar = typename Kernel::Scalar;
-    using SceneType = Scene<Kernel, Discretization, Membrane, Flow, Solver>;
+    using SceneType = Scene<Kernel, Discretization, Membrane, Flow, Solver, Wall>;
     using InstantType = typename SceneType::InstantType;
     using Record = StepRecord<Scalar>;
     using Params = SimulationParams<Scalar>;
 
-    /// Throws InvalidArgument when the shape is not a valid meridian or a parameter is out of range.
+    /// Throws InvalidArgument when the shape is not a valid meridian, does not fit between the walls, or a parameter is
+    /// out of range.
     explicit Simulator(const Meridian<Scalar>& shape, Flow flow, Params params = {}, Kernel kernel = Kernel{},
                        Discretization discretization = Discretization{}, Membrane membrane = Membrane{},
-                       Integrator integrator = Integrator{}, Solver solver = Solver{})
+                       Integrator integrator = Integrator{}, Solver solver = Solver{}, Wall wall = Wall{})
         : params_(params),
-          scene_(std::move(kernel), std::move(discretization), std::move(membrane), std::move(flow), std::move(solver)),
+          scene_(std::move(kernel), std::move(discretization), std::move(membrane), std::move(flow), std::move(solver),
+                 std::move(wall)),
           integrator_(std::move(integrator)) {
         detail::validate(params);
         validate(shape);
-        const Measures<Scalar> measures = MeridianSpline<Scalar>(shape).measures();
+        const Measures<Scalar> measures = scene_.discretization().measures(shape);
         configuration_.shape = shape;
         configuration_.shape.z.array() -= measures.centroid;
         configuration_.position = measures.centroid;
         area_ = measures.area;
         volume_ = measures.volume;
         dt_ = params.time_step.value_or(params.first_time_step);
+        film_ = scene_.film_thickness(configuration_).min;
+        detail::require(film_ > Scalar(0), "initial shape: its distance to the wall", film_,
+                        "> 0, that is the shape must fit between the walls");
     }
 
     const SceneType& scene() const { return scene_; }
@@ -248,10 +247,19 @@ class Simulator {
             }
         }
         describe(next, record);
+        if constexpr (SceneType::confined) {
+            const FilmThickness<Scalar> film = scene_.film_thickness(next);
+            record.film_thickness_min = film.min;
+            record.film_thickness_mean = film.mean;
+            if (Membrane::deformable && !clear_of_wall(record, cause)) {
+                return std::nullopt;
+            }
+        }
+        if constexpr (ConfiningKernel<Kernel>) {
+            record.pressure_drop = scene_.kernel().pressure_drop(step->instant.surface, step->instant.solution.force);
+        }
         return attempt;
     }
-
-    static Scalar energy_noise() { return 1000 * std::numeric_limits<Scalar>::epsilon(); }
 
     /// Checks and corrects a displaced shape; false, with the cause, if it cannot be used.
     bool deform(Configuration<Scalar>& next, Record& record, std::string& cause) const {
@@ -259,19 +267,28 @@ class Simulator {
         if (!usable(shape, cause)) {
             return false;
         }
-        const Measures<Scalar> raw = MeridianSpline<Scalar>(shape).measures();
+        const Discretization& discretization = scene_.discretization();
+        const Measures<Scalar> raw = discretization.measures(shape);
         record.area_error = raw.area / area_ - 1;
         record.volume_error = raw.volume / volume_ - 1;
-        if (!restore_area_and_volume<Scalar>(shape, area_, volume_, 1000 * std::numeric_limits<Scalar>::epsilon())) {
+        if (!discretization.restore(shape, area_, volume_)) {
             cause = "area and volume drifted by " + text(record.area_error) + " and " + text(record.volume_error) +
                     " and could not be restored";
             return false;
         }
-        if (spacing_distortion(shape, params_.spacing) > params_.largest_distortion) {
-            shape = redistribute(shape, params_.spacing, shape.elements());
-            record.redistributed = true;
-        }
+        record.redistributed = discretization.redistribute(shape);
         return usable(shape, cause);
+    }
+
+    /// In one step the film may lose at most half of its thickness.
+    bool clear_of_wall(const Record& record, std::string& cause) const {
+        if (record.film_thickness_min > film_ / 2) {
+            return true;
+        }
+        cause = record.film_thickness_min > Scalar(0) ? "the distance to the wall would shrink from " + text(film_) +
+                                                            " to " + text(record.film_thickness_min)
+                                                      : "the membrane would cross the wall";
+        return false;
     }
 
     static bool usable(const Meridian<Scalar>& shape, std::string& cause) {
@@ -292,8 +309,8 @@ class Simulator {
     }
 
     void describe(Configuration<Scalar>& next, Record& record) const {
-        const MeridianSpline<Scalar> spline(next.shape);
-        const Measures<Scalar> measures = spline.measures();
+        const Discretization& discretization = scene_.discretization();
+        const Measures<Scalar> measures = discretization.measures(next.shape);
         next.shape.z.array() -= measures.centroid;
         next.position += measures.centroid;
         record.step = static_cast<Index>(history_.size()) + 1;
@@ -301,13 +318,13 @@ class Simulator {
         record.dt = dt_;
         record.position = next.position;
         record.length = next.shape.z[next.shape.nodes() - 1] - next.shape.z[0];
-        record.max_radius = spline.max_radius();
+        record.max_radius = discretization.max_radius(next.shape);
         record.area = measures.area;
         record.volume = measures.volume;
         record.area_drift = measures.area / area_ - 1;
         record.volume_drift = measures.volume / volume_ - 1;
         if constexpr (Membrane::deformable) {
-            record.bending_energy = axistokes::bending_energy(next.shape);
+            record.bending_energy = discretization.bending_energy(next.shape);
         }
     }
 
@@ -319,6 +336,7 @@ class Simulator {
         motion_ = std::move(attempt.motion);
         time_ = attempt.record.time;
         configuration_ = std::move(attempt.configuration);
+        film_ = attempt.record.film_thickness_min;
         history_.push_back(attempt.record);
         if (!params_.time_step) {
             if (reversed) {
@@ -343,6 +361,7 @@ class Simulator {
     Scalar volume_{};
     Scalar time_{};
     Scalar dt_{};
+    Scalar film_{};
 };
 
 }  // namespace axistokes

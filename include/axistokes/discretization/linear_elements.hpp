@@ -4,17 +4,20 @@
 //
 // Order of the rule. On the line through an element of length L the kernel's only singularity near the element is at
 // the target x0, seen in the complexified parameter: the kernel is analytic in the ellipse whose foci are the element's
-// ends and whose axis sum is rho = a + sqrt(a^2 - 1), a = (|x0 - x1| + |x0 - x2|)/L. Gauss-Legendre with n nodes errs by
-// O(rho^(-2n)) times the integrand's growth on the ellipse (Trefethen, Approximation Theory and Practice, theorem 19.3),
-// which is up to rho^2 for the ring's radius and the hat function, so n = 1 + log(1/tolerance) / (2 log rho). If that
-// exceeds the largest order the element is halved. When x0 is one of the ends, M = smooth + log_coefficient
-// log(m1), and on a straight element m1 = L^2 t^2 / ((r + r0)^2 + (z - z0)^2): a product rule takes log t exactly, and
-// the nearest singularity is the mirror point (-r0, z0).
+// ends and whose axis sum is rho = a + sqrt(a^2 - 1), a = (|x0 - x1| + |x0 - x2|)/L. Gauss-Legendre with n nodes errs
+// by O(rho^(-2n)) times the integrand's growth on the ellipse (Trefethen, Approximation Theory and Practice,
+// theorem 19.3), which is up to rho^2 for the ring's radius and the hat function, so n = 1 + log(1/tolerance) / (2 log
+// rho). If that exceeds the largest order the element is halved. When x0 is one of the ends, M = smooth +
+// log_coefficient log(m1), and on a straight element m1 = L^2 t^2 / ((r + r0)^2 + (z - z0)^2): a product rule takes log
+// t exactly, and the nearest singularity is the mirror point (-r0, z0).
 #pragma once
 
-#include "../core.hpp"
+#include "../geometry/spline_geometry.hpp"
 #include "../quadrature/gauss_legendre.hpp"
+#include "../quadrature/regular_quadrature.hpp"
 #include "linear_surface.hpp"
+
+#include <Eigen/SparseCore>
 
 #include <cmath>
 #include <limits>
@@ -24,7 +27,7 @@ namespace axistokes {
 
 /// Discretisation policy: P1 elements.
 template <class S = double>
-class LinearElements {
+class LinearElements : public SplineGeometry<S> {
   public:
     using Scalar = S;
     using Surface = LinearSurface<S>;
@@ -32,6 +35,7 @@ class LinearElements {
     struct Params {
         /// Relative error allowed in each element's integrals, in (0, 0.1]. The elements themselves err by O(h^2).
         S tolerance = default_tolerance();
+        MeshingParams<S> meshing;
 
         static S default_tolerance() {
             // Well below what hundreds of elements resolve (1e-5), and within reach of single precision.
@@ -41,8 +45,9 @@ class LinearElements {
         }
     };
 
-    /// Throws InvalidArgument when the tolerance is not in (0, 0.1].
-    explicit LinearElements(Params params = {}) : params_(checked(params)), rules_(largest_order(params.tolerance)) {
+    /// Throws InvalidArgument when the tolerance is not in (0, 0.1] or a meshing parameter is out of range.
+    explicit LinearElements(Params params = {})
+        : SplineGeometry<S>(params.meshing), params_(checked(params)), rules_(largest_order(params.tolerance)) {
         using std::cosh;
         using std::log;
         // A half-axis sum a >= needed_[n] makes n nodes enough.
@@ -188,7 +193,55 @@ class LinearElements {
             g.row(rows + i).head(n) = scale * row.zr;
             g.row(rows + i).tail(n) = scale * row.zz;
         }
+        if constexpr (Kernel::has_regular_part) {
+            add_regular_part(targets, m, kernel, g);
+        }
         return g;
+    }
+
+    /// The kernel's smooth part, for all targets at once.
+    template <class Kernel>
+    void add_regular_part(const Meridian<S>& targets, const Meridian<S>& m, const Kernel& kernel, Matrix<S>& g) const {
+        const S nearest = kernel.tube_radius() - targets.r.maxCoeff();
+        kernel.regular(
+            targets, [&](const S& distance) { return regular_quadrature(m, kernel.tube_radius(), nearest, distance); },
+            g);
+    }
+
+    /// Rules for integrands whose singularities are the targets' images, as far behind the wall as the targets, at
+    /// least `nearest`, are before it, and no closer than `apart` in any case: the order follows as it does for
+    /// targets.
+    RegularQuadrature<S> regular_quadrature(const Meridian<S>& m, const S& tube_radius, const S& nearest,
+                                            const S& apart) const {
+        Points points;
+        for (Index e = 0; e < m.elements(); ++e) {
+            const S length = distance(m.r[e], m.z[e], m.r[e + 1], m.z[e + 1]);
+            const S closest = std::max<S>(apart, tube_radius - std::max(m.r[e], m.r[e + 1]) + nearest);
+            const auto parts = static_cast<Index>(std::ceil(static_cast<double>(length / (2 * closest))));
+            for (Index k = 0; k < parts; ++k) {
+                add_rule(m, e, S(k) / S(parts), S(k + 1) / S(parts), regular_order(closest, length / S(parts)), points);
+            }
+        }
+        RegularQuadrature<S> result;
+        result.points = {Eigen::Map<const Vector<S>>(points.r.data(), points.size()),
+                         Eigen::Map<const Vector<S>>(points.z.data(), points.size())};
+        std::vector<Eigen::Triplet<S>> entries;
+        const S scale = S(1) / (8 * detail::pi_value<S>());
+        for (std::size_t q = 0; q < points.r.size(); ++q) {
+            const auto lower = static_cast<int>(points.element[q]);
+            entries.emplace_back(static_cast<int>(q), lower, scale * points.lower[q]);
+            entries.emplace_back(static_cast<int>(q), lower + 1, scale * points.upper[q]);
+        }
+        result.weights.resize(points.size(), m.nodes());
+        result.weights.setFromTriplets(entries.begin(), entries.end());
+        return result;
+    }
+
+    /// Nodes for a singularity abreast of the middle of a part of an element, at `closest` from it.
+    Index regular_order(const S& closest, const S& length) const {
+        using std::sqrt;
+        const Index n = order(2 * sqrt(length * length / 4 + closest * closest), length);
+        return n == 0 ? rules_.largest() : n;
     }
 
     /// Points on the part [begin, end] of element e; `from`, `to` are the target's distances to the part's ends.
@@ -208,6 +261,14 @@ class LinearElements {
             add_element(m, e, middle, end, target, half, to, depth + 1, points);
             return;
         }
+        add_rule(m, e, begin, end, n, points);
+    }
+
+    /// The rule with n nodes on the part [begin, end] of element e.
+    void add_rule(const Meridian<S>& m, Index e, const S& begin, const S& end, Index n, Points& points) const {
+        const S dr = m.r[e + 1] - m.r[e];
+        const S dz = m.z[e + 1] - m.z[e];
+        const S length = distance(S(0), S(0), dr, dz);
         const GaussLegendreRule<S>& rule = rules_[n];
         for (Index q = 0; q < n; ++q) {
             const S t = begin + rule.nodes[q] * (end - begin);

@@ -32,10 +32,10 @@ struct LinearSurface {
     Vector<S> mean_curvature;   // H > 0 on a sphere
     Vector<S> gauss_curvature;  // K = (n_r/r) (2 H - n_r/r); H^2 at the poles
 
-    Operator laplacian;         // n x n: Laplace-Beltrami operator of an axisymmetric scalar
-    Operator mean_curvature_of; // n x 2n: positions -> H, linear with normals and metric frozen
-    Operator divergence;        // (n - 1) x 2n: velocity -> relative rate of change of each frustum's area
-    Operator tension_force;     // 2n x (n - 1): tension of each element -> force density, -(1/W) dA/dx
+    Operator laplacian;          // n x n: Laplace-Beltrami operator of an axisymmetric scalar
+    Operator mean_curvature_of;  // n x 2n: positions -> H, linear with normals and metric frozen
+    Operator divergence;         // (n - 1) x 2n: velocity -> relative rate of change of each frustum's area
+    Operator tension_force;      // 2n x (n - 1): tension of each element -> force density, -(1/W) dA/dx
 
     Index size() const { return nodes.nodes(); }
     Vector<S> positions() const {
@@ -48,6 +48,18 @@ struct LinearSurface {
         Vector<S> n(2 * size());
         n << normal_r, normal_z;
         return n;
+    }
+    /// Operator -> scalar per node, as a stacked field along the frozen normals.
+    Operator along_normal(const Operator& scalar) const {
+        std::vector<Eigen::Triplet<S>> entries;
+        entries.reserve(static_cast<std::size_t>(2 * size()));
+        for (Index i = 0; i < size(); ++i) {
+            entries.emplace_back(static_cast<int>(i), static_cast<int>(i), normal_r[i]);
+            entries.emplace_back(static_cast<int>(size() + i), static_cast<int>(i), normal_z[i]);
+        }
+        Operator spread(2 * size(), size());
+        spread.setFromTriplets(entries.begin(), entries.end());
+        return spread * scalar;
     }
     /// Int of a stacked field's normal component over the surface; exactly 0 for a translation.
     S flux(const Vector<S>& field) const { return volume_gradient.dot(field); }

@@ -63,9 +63,7 @@ class UnboundedPoiseuille {
         detail::require(isfinite(capillary_number), "unbounded capillary number", capillary_number, "finite");
         detail::require(isfinite(centreline_velocity), "centreline velocity", centreline_velocity, "finite");
     }
-    Point<S> velocity(const Point<S>& x) const {
-        return {S(0), centreline_velocity_ - capillary_number_ * x.r * x.r};
-    }
+    Point<S> velocity(const Point<S>& x) const { return {S(0), centreline_velocity_ - capillary_number_ * x.r * x.r}; }
     S normal_load(const Point<S>&) const { return S(0); }
     S velocity_scale() const {
         using std::abs;

@@ -4,31 +4,12 @@
 
 #include "../quadrature/gauss_legendre.hpp"
 #include "cubic_spline.hpp"
+#include "measures.hpp"
 #include "meridian.hpp"
 
 #include <cmath>
 
 namespace axistokes {
-
-/// Integrals over the closed surface, in units of R0^2 (area), R0^3 (volume) and R0 (centroid, axial).
-template <class S>
-struct Measures {
-    S area{};
-    S volume{};
-    S centroid{};
-
-    /// Volume over that of the sphere of equal area; 1 for a sphere.
-    S reduced_volume() const {
-        using std::sqrt;
-        return 6 * sqrt(detail::pi_value<S>()) * volume / (area * sqrt(area));
-    }
-    /// Area in excess of the sphere of equal volume, in units of the square of that sphere's radius.
-    S excess_area() const {
-        using std::cbrt;
-        const S radius = cbrt(3 * volume / (4 * detail::pi_value<S>()));
-        return area / (radius * radius) - 4 * detail::pi_value<S>();
-    }
-};
 
 /// Position and its first two derivatives with respect to the spline's parameter.
 template <class S>
@@ -62,8 +43,7 @@ class MeridianSpline {
 
     /// Point of element e at the local coordinate x in [0, 1]. Derivatives are with respect to t.
     CurvePoint<S> at(Index e, const S& x) const {
-        return {
-            {r_.value(e, x), z_.value(e, x)}, {r_.first(e, x), z_.first(e, x)}, {r_.second(e, x), z_.second(e, x)}};
+        return {{r_.value(e, x), z_.value(e, x)}, {r_.first(e, x), z_.first(e, x)}, {r_.second(e, x), z_.second(e, x)}};
     }
 
     CurvePoint<S> at_node(Index i) const { return i < elements() ? at(i, S(0)) : at(i - 1, S(1)); }

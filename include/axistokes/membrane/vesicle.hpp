@@ -7,10 +7,6 @@
 
 #include "../concepts.hpp"
 
-#include <Eigen/SparseCore>
-
-#include <vector>
-
 namespace axistokes {
 
 namespace detail {
@@ -49,7 +45,7 @@ class Vesicle {
         const Vector<S> factor = 4 * (h.cwiseAbs2() - surface.gauss_curvature);
         Operator scalar = S(2) * (surface.laplacian * surface.mean_curvature_of);
         scalar += Operator(factor.asDiagonal() * surface.mean_curvature_of);
-        return along_normal(surface, scalar);
+        return surface.along_normal(scalar);
     }
 
     /// Velocities, forces and tension of a vesicle. The unknowns are (u, gamma) of
@@ -58,6 +54,7 @@ class Vesicle {
     /// also resists the curvature created during the step, at its previous value, where it is positive.
     template <class Surface, class Solver>
     MobilitySolution<S> solve(const MobilityProblem<S, Surface>& problem, Solver& solver) const {
+        using Operator = typename Surface::Operator;
         const Surface& surface = problem.surface;
         const Index n = 2 * surface.size();
         const Index tensions = surface.divergence.rows();
@@ -66,11 +63,11 @@ class Vesicle {
 
         Matrix<S> g = problem.mobility;
         detail::complete_rank<S>(surface, g);
-        const typename Surface::Operator bending = bending_operator(surface);
-        typename Surface::Operator implicit = bending;
+        const Operator bending = bending_operator(surface);
+        Operator implicit = bending;
         if (problem.tension.size() == tensions) {
             const Vector<S> pull = -2 * surface.at_nodes(problem.tension).cwiseMax(S(0));
-            implicit += along_normal(surface, typename Surface::Operator(pull.asDiagonal() * surface.mean_curvature_of));
+            implicit += surface.along_normal(Operator(pull.asDiagonal() * surface.mean_curvature_of));
         }
 
         const Index unknowns = n + tensions + (sphere ? 1 : 0);
@@ -84,7 +81,7 @@ class Vesicle {
         if (sphere) {
             const Vector<S> rigidity = Vector<S>::Constant(surface.size(), S(-2 * saturated_resistance));
             system.topLeftCorner(n, n) -=
-                g * along_normal(surface, typename Surface::Operator(rigidity.asDiagonal() * surface.mean_curvature_of));
+                g * surface.along_normal(Operator(rigidity.asDiagonal() * surface.mean_curvature_of));
             // A uniform tension is a pressure, and dA/dt = 2 dV/dt = 0 makes one of the constraints redundant: fix the
             // mean tension and allow for the redundant constraint's O(h^2) error.
             system.block(n + tensions, n, 1, tensions) = surface.element_area.transpose() / surface.area();
@@ -107,24 +104,9 @@ class Vesicle {
     }
 
   private:
-    template <class Surface>
-    static typename Surface::Operator along_normal(const Surface& surface, const typename Surface::Operator& scalar) {
-        using Operator = typename Surface::Operator;
-        const Index n = surface.size();
-        std::vector<Eigen::Triplet<S>> entries;
-        entries.reserve(static_cast<std::size_t>(2 * n));
-        for (Index i = 0; i < n; ++i) {
-            entries.emplace_back(static_cast<int>(i), static_cast<int>(i), surface.normal_r[i]);
-            entries.emplace_back(static_cast<int>(n + i), static_cast<int>(i), surface.normal_z[i]);
-        }
-        Operator spread(2 * n, n);
-        spread.setFromTriplets(entries.begin(), entries.end());
-        return spread * scalar;
-    }
-
-    /// A sphere has no area to spare: its tension grows without bound against any deformation, although div_s u = 0 alone
-    /// admits deformations to first order. The limit is a resistance to the rate of change of the curvature, large
-    /// against the viscous one of the fluid (which is 1 in these units).
+    /// A sphere has no area to spare: its tension grows without bound against any deformation, although div_s u = 0
+    /// alone admits deformations to first order. The limit is a resistance to the rate of change of the curvature,
+    /// large against the viscous one of the fluid (which is 1 in these units).
     static constexpr double saturated_resistance = 1e5;
 
     /// Curvature variations of an excess area D are about sqrt(D); below 1e-6 the tension's mean is noise.
