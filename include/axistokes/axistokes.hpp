@@ -4,8 +4,7 @@
 
 #include "discretization/linear_elements.hpp"
 #include "flow/background.hpp"
-#include "flow/poiseuille.hpp"
-#include "geometry/shapes.hpp"
+#include "geometry/tube_shapes.hpp"
 #include "io/csv.hpp"
 #include "io/vtk.hpp"
 #include "kernel/free_space.hpp"
