@@ -15,4 +15,5 @@
 #include "solver/dense.hpp"
 #include "solver/gmres.hpp"
 #include "time/explicit_euler.hpp"
+#include "time/extrapolated_euler.hpp"
 #include "time/semi_implicit_euler.hpp"

@@ -49,6 +49,7 @@ class Scene {
     using Scalar = typename Kernel::Scalar;
     using Surface = typename Discretization::Surface;
     using InstantType = Instant<Scalar, Surface>;
+    static constexpr bool deformable = Membrane::deformable;
     static constexpr bool confined = ConfiningKernel<Kernel> || Wall::present;
 
     Scene(Kernel kernel, Discretization discretization, Membrane membrane, Flow flow, Solver solver, Wall wall = {})
@@ -66,25 +67,48 @@ class Scene {
     const Solver& solver() const { return solver_; }
     const Wall& wall() const { return wall_; }
 
-    /// Velocities with the membrane's forces taken at x + implicit_time * u (0: at x).
-    /// Throws SimulationFailure when the system cannot be solved.
-    InstantType evaluate(const Configuration<Scalar>& configuration, const Scalar& implicit_time) {
-        InstantType instant;
-        instant.surface = discretization_.surface(configuration.shape);
-        const Surface& surface = instant.surface;
-        const Index n = surface.size();
-        Matrix<Scalar> mobility = discretization_.single_layer(configuration.shape, kernel_);
-        Vector<Scalar> background = background_velocity(configuration);
-        instant.shear_rate = shear_rate(configuration.shape, background);
+    /// What an evaluation needs of a configuration however implicit it is: the costly part.
+    struct Frozen {
+        Surface surface;
+        Matrix<Scalar> mobility;
+        Vector<Scalar> background;
+        Vector<Scalar> load;
+        Scalar shear_rate{};
+    };
+
+    Frozen freeze(const Configuration<Scalar>& configuration) {
+        Frozen frozen;
+        frozen.surface = discretization_.surface(configuration.shape);
+        frozen.mobility = discretization_.single_layer(configuration.shape, kernel_);
+        frozen.background = background_velocity(configuration);
+        frozen.shear_rate = shear_rate(configuration.shape, frozen.background);
         if constexpr (Wall::present) {
             Meridian<Scalar> particle = configuration.shape;
             particle.z.array() += configuration.position;
-            wall_.confine(discretization_, kernel_, particle, mobility, background);
+            wall_.confine(discretization_, kernel_, particle, frozen.mobility, frozen.background);
         }
-        const Vector<Scalar> load = normal_load(configuration, surface);
-        instant.solution = membrane_.solve(
-            MobilityProblem<Scalar, Surface>{surface, mobility, background, load, configuration.tension, implicit_time},
-            solver_);
+        frozen.load = normal_load(configuration, frozen.surface);
+        return frozen;
+    }
+
+    /// Velocities with the membrane's forces taken at x + implicit_time * u (0: at x).
+    /// Throws SimulationFailure when the system cannot be solved.
+    InstantType evaluate(const Configuration<Scalar>& configuration, const Scalar& implicit_time) {
+        return evaluate(freeze(configuration), configuration, implicit_time);
+    }
+
+    /// The same, for a configuration that is frozen already.
+    InstantType evaluate(const Frozen& frozen, const Configuration<Scalar>& configuration,
+                         const Scalar& implicit_time) {
+        InstantType instant;
+        instant.surface = frozen.surface;
+        instant.shear_rate = frozen.shear_rate;
+        const Surface& surface = frozen.surface;
+        const Index n = surface.size();
+        instant.solution =
+            membrane_.solve(MobilityProblem<Scalar, Surface>{surface, frozen.mobility, frozen.background, frozen.load,
+                                                             configuration.tension, implicit_time},
+                            solver_);
         const Vector<Scalar>& u = instant.solution.velocity;
         const Vector<Scalar> normal_velocity =
             surface.normal_r.cwiseProduct(u.head(n)) + surface.normal_z.cwiseProduct(u.tail(n));
