@@ -52,6 +52,13 @@ class PanelCurve {
     Index nodes_per_panel() const { return p_; }
     const Meridian<S>& nodes() const { return nodes_; }
 
+    /// Point of a panel at t in [0, 1].
+    Point<S> position(Index panel, const S& t) const {
+        Vector<S> basis;
+        lagrange(t, basis);
+        return {basis.dot(nodes_.r.segment(panel * p_, p_)), basis.dot(nodes_.z.segment(panel * p_, p_))};
+    }
+
     /// Weights of Int dl at the nodes.
     Vector<S> line_weights() const {
         Vector<S> w(size());
@@ -157,12 +164,6 @@ class PanelCurve {
     static S distance(const Point<S>& a, const Point<S>& b) {
         using std::sqrt;
         return sqrt((a.r - b.r) * (a.r - b.r) + (a.z - b.z) * (a.z - b.z));
-    }
-
-    Point<S> position(Index panel, const S& t) const {
-        Vector<S> basis;
-        lagrange(t, basis);
-        return {basis.dot(nodes_.r.segment(panel * p_, p_)), basis.dot(nodes_.z.segment(panel * p_, p_))};
     }
 
     /// A point at t whose weight for Int ... dt is w.
