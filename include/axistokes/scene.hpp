@@ -27,6 +27,8 @@ struct Instant {
     S velocity{};  // of the centroid, along z
     /// Largest normal velocity relative to the centroid's: 0 in a stationary state.
     S deformation_rate{};
+    /// Added by the particle to the pressure drop along the tube or channel, in kappa/R0^3; 0 without walls.
+    S pressure_drop{};
 };
 
 /// How close the membrane comes to the wall, in R0.
@@ -89,7 +91,22 @@ class Scene {
         const Vector<Scalar> moment = surface.weight.cwiseProduct(configuration.shape.z);
         instant.velocity = moment.dot(normal_velocity) / moment.dot(surface.normal_z);
         instant.deformation_rate = (normal_velocity - instant.velocity * surface.normal_z).cwiseAbs().maxCoeff();
+        if constexpr (ConfiningKernel<Kernel>) {
+            instant.pressure_drop = kernel_.pressure_drop(surface, instant.solution.force);
+        }
+        if constexpr (Wall::present) {
+            instant.pressure_drop = wall_.pressure_drop(surface, instant.solution.force);
+        }
         return instant;
+    }
+
+    /// A typical velocity of what drives the scene.
+    Scalar velocity_scale() const {
+        if constexpr (Wall::present) {
+            return std::max<Scalar>(flow_.velocity_scale(), wall_.velocity_scale());
+        } else {
+            return flow_.velocity_scale();
+        }
     }
 
     /// Undisturbed velocity at the nodes, stacked.

@@ -58,6 +58,12 @@ class PanelCurve {
         lagrange(t, basis);
         return {basis.dot(nodes_.r.segment(panel * p_, p_)), basis.dot(nodes_.z.segment(panel * p_, p_))};
     }
+    /// |dx/dt| there.
+    S speed(Index panel, const S& t) const {
+        Vector<S> basis;
+        lagrange(t, basis);
+        return basis.dot(speed_.segment(panel * p_, p_));
+    }
 
     /// Weights of Int dl at the nodes.
     Vector<S> line_weights() const {
