@@ -9,6 +9,7 @@
 
 #include "../geometry/spline_geometry.hpp"
 #include "../quadrature/element_rules.hpp"
+#include "../quadrature/kernel_row.hpp"
 #include "linear_surface.hpp"
 
 #include <cmath>
@@ -92,27 +93,8 @@ class LinearElements : public SplineGeometry<S> {
         Index size() const { return static_cast<Index>(r.size()); }
     };
 
-    struct Entries {
-        std::vector<S> rr, rz, zr, zz;
-
-        KernelArrays<S> arrays(Index n) {
-            for (std::vector<S>* entry : {&rr, &rz, &zr, &zz}) {
-                entry->resize(static_cast<std::size_t>(n));
-            }
-            return {rr.data(), rz.data(), zr.data(), zz.data()};
-        }
-    };
-
-    /// Row of G for one target, accumulated in four contiguous vectors.
-    struct Row {
-        explicit Row(Index n) : rr(n), rz(n), zr(n), zz(n) {}
-        void set_zero() {
-            for (Vector<S>* entry : {&rr, &rz, &zr, &zz}) {
-                entry->setZero();
-            }
-        }
-        Vector<S> rr, rz, zr, zz;
-    };
+    using Entries = detail::KernelEntries<S>;
+    using Row = detail::KernelRow<S>;
 
     static S distance(const S& r0, const S& z0, const S& r, const S& z) {
         using std::sqrt;
@@ -152,10 +134,7 @@ class LinearElements : public SplineGeometry<S> {
                     add_singular_element(m, i, target, true, kernel, points, entries, log_entries, row);
                 }
             }
-            g.row(i).head(n) = scale * row.rr;
-            g.row(i).tail(n) = scale * row.rz;
-            g.row(rows + i).head(n) = scale * row.zr;
-            g.row(rows + i).tail(n) = scale * row.zz;
+            row.store(scale, i, rows, g);
         }
         return g;
     }
@@ -191,20 +170,13 @@ class LinearElements : public SplineGeometry<S> {
         const KernelArrays<S> out = entries.arrays(points.size());
         kernel.singular(target, points.r.data(), points.z.data(), points.size(), out);
         for (std::size_t q = 0; q < points.r.size(); ++q) {
-            add(row, points.element[q], points.lower[q], points.upper[q],
-                {entries.rr[q], entries.rz[q], entries.zr[q], entries.zz[q]});
+            add(row, points.element[q], points.lower[q], points.upper[q], entries[q]);
         }
     }
 
     static void add(Row& row, Index e, const S& lower, const S& upper, const KernelBlock<S>& m) {
-        row.rr[e] += lower * m.rr;
-        row.rr[e + 1] += upper * m.rr;
-        row.rz[e] += lower * m.rz;
-        row.rz[e + 1] += upper * m.rz;
-        row.zr[e] += lower * m.zr;
-        row.zr[e + 1] += upper * m.zr;
-        row.zz[e] += lower * m.zz;
-        row.zz[e + 1] += upper * m.zz;
+        row.add(e, lower, m);
+        row.add(e + 1, upper, m);
     }
 
     /// Element e with the target at one of its ends. The product rule covers the part of it, from the target on, that

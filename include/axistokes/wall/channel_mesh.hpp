@@ -69,11 +69,11 @@ class ChannelMesh {
     using Params = WallMeshParams<Scalar>;
 
     /// A mesh for a particle, in the profile's coordinates (those of the particle's centre in a straight tube).
-    /// Throws InvalidArgument where the profile's radius is not positive and finite.
     ChannelMesh(const Profile& profile, const Params& params, const Meridian<Scalar>& particle)
         : profile_(profile),
           params_(params),
-          curve_(params.nodes_per_panel.value_or(default_nodes(params.tolerance)), quadrature_tolerance(params.tolerance)) {
+          curve_(params.nodes_per_panel.value_or(default_nodes(params.tolerance)),
+                 quadrature_tolerance(params.tolerance)) {
         const Scalar low = particle.z.minCoeff();
         const Scalar high = particle.z.maxCoeff();
         lower_ = (Profile::uniform ? low : std::min(low, Scalar(profile.begin()))) - margin(profile, params, low);
@@ -120,9 +120,10 @@ class ChannelMesh {
         if (params_.panels) {
             return true;
         }
+        const Scalar film = film_thickness(particle);
         for (Index i = 0; i + 1 < breaks_.size(); ++i) {
             const Scalar middle = (breaks_[i] + breaks_[i + 1]) / 2;
-            if (breaks_[i + 1] - breaks_[i] > Scalar(1.5) * wanted_length(middle, particle, Scalar(0))) {
+            if (breaks_[i + 1] - breaks_[i] > Scalar(1.5) * wanted_length(middle, particle, film, Scalar(0))) {
                 return false;
             }
         }
@@ -164,7 +165,18 @@ class ChannelMesh {
                                       Scalar(2 * detail::tube_decay));
     }
 
-    Scalar wanted_length(const Scalar& z, const Meridian<Scalar>& particle, const Scalar& slack) const {
+    /// Smallest radial distance of the particle's nodes from the wall.
+    Scalar film_thickness(const Meridian<Scalar>& particle) const {
+        Scalar film = std::numeric_limits<Scalar>::infinity();
+        for (Index i = 0; i < particle.nodes(); ++i) {
+            film = std::min(film, Scalar(channel_radius(profile_, particle.z[i]) - particle.r[i]));
+        }
+        return film;
+    }
+
+    /// For the particle as it is, or after it has moved by at most `slack`.
+    Scalar wanted_length(const Scalar& z, const Meridian<Scalar>& particle, const Scalar& film,
+                         const Scalar& slack) const {
         using std::abs;
         using std::sqrt;
         const Scalar radius = channel_radius(profile_, z);
@@ -175,7 +187,9 @@ class ChannelMesh {
             nearest = std::min(nearest, Scalar(dr * dr + dz * dz));
         }
         const Scalar slope = channel_slope(profile_, z);
-        const Scalar arc = std::min(Scalar(length_over_radius) * radius, Scalar(length_over_distance) * sqrt(nearest));
+        // A particle that has moved comes no closer to the wall than it is now.
+        const Scalar distance = std::max(Scalar(sqrt(nearest)), film);
+        const Scalar arc = std::min(Scalar(length_over_radius) * radius, Scalar(length_over_distance) * distance);
         return arc / sqrt(Scalar(1) + slope * slope);
     }
 
@@ -183,15 +197,15 @@ class ChannelMesh {
         using std::ceil;
         constexpr Index samples = 2000;
         const Scalar step = (upper_ - lower_) / Scalar(samples);
+        const Scalar film = film_thickness(particle);
         Vector<Scalar> cumulative(samples + 1);
         cumulative[0] = 0;
         for (Index i = 0; i < samples; ++i) {
             const Scalar z = lower_ + step * (Scalar(i) + Scalar(0.5));
             const Scalar radius = channel_radius(profile_, z);
-            detail::require_positive("profile radius", radius);
             const Scalar slack = Profile::uniform ? Scalar(0) : Scalar(slack_over_radius) * radius;
             const Scalar length =
-                params_.grading == WallGrading::uniform ? Scalar(1) : wanted_length(z, particle, slack);
+                params_.grading == WallGrading::uniform ? Scalar(1) : wanted_length(z, particle, film, slack);
             cumulative[i + 1] = cumulative[i] + step / length;
         }
         const Index count =

@@ -11,6 +11,7 @@
 
 #include "../geometry/meridian_spline.hpp"
 #include "../quadrature/element_rules.hpp"
+#include "../quadrature/kernel_row.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -131,11 +132,11 @@ class PanelCurve {
         values /= values.sum();
     }
 
-    /// Quadrature points on one panel for one target: positions, and the weight of each nodal density in rows.
+    /// Quadrature points on one panel for one target: positions, the share of each of the panel's p densities, and
+    /// the kernel's entries.
     struct Points {
-        std::vector<S> r, z;
-        std::vector<S> to_node;  // p values a point
-        std::vector<S> rr, rz, zr, zz, log_rr, log_rz, log_zr, log_zz;
+        std::vector<S> r, z, to_node;
+        detail::KernelEntries<S> entries, log_entries;
 
         void clear() {
             r.clear();
@@ -143,29 +144,8 @@ class PanelCurve {
             to_node.clear();
         }
         Index size() const { return static_cast<Index>(r.size()); }
-        KernelArrays<S> entries() {
-            for (std::vector<S>* entry : {&rr, &rz, &zr, &zz}) {
-                entry->resize(r.size());
-            }
-            return {rr.data(), rz.data(), zr.data(), zz.data()};
-        }
-        KernelArrays<S> log_entries() {
-            for (std::vector<S>* entry : {&log_rr, &log_rz, &log_zr, &log_zz}) {
-                entry->resize(r.size());
-            }
-            return {log_rr.data(), log_rz.data(), log_zr.data(), log_zz.data()};
-        }
     };
-
-    struct Row {
-        explicit Row(Index n) : rr(n), rz(n), zr(n), zz(n) {}
-        void set_zero() {
-            for (Vector<S>* entry : {&rr, &rz, &zr, &zz}) {
-                entry->setZero();
-            }
-        }
-        Vector<S> rr, rz, zr, zz;
-    };
+    using Row = detail::KernelRow<S>;
 
     static S distance(const Point<S>& a, const Point<S>& b) {
         using std::sqrt;
@@ -207,22 +187,18 @@ class PanelCurve {
     }
 
     void add_to_row(Index panel, Index point, const Points& points, const KernelBlock<S>& m, Row& row) const {
-        const S* weights = points.to_node.data() + point * p_;
+        const S* share = points.to_node.data() + point * p_;
         for (Index k = 0; k < p_; ++k) {
-            const S w = weights[k];
-            row.rr[panel * p_ + k] += w * m.rr;
-            row.rz[panel * p_ + k] += w * m.rz;
-            row.zr[panel * p_ + k] += w * m.zr;
-            row.zz[panel * p_ + k] += w * m.zz;
+            row.add(panel * p_ + k, share[k], m);
         }
     }
 
     template <class Kernel>
     void accumulate(const Kernel& kernel, Index panel, const Point<S>& target, Points& points, Row& row) const {
-        kernel.singular(target, points.r.data(), points.z.data(), points.size(), points.entries());
-        for (Index q = 0; q < points.size(); ++q) {
-            const auto k = static_cast<std::size_t>(q);
-            add_to_row(panel, q, points, {points.rr[k], points.rz[k], points.zr[k], points.zz[k]}, row);
+        const Index n = points.size();
+        kernel.singular(target, points.r.data(), points.z.data(), n, points.entries.arrays(n));
+        for (Index q = 0; q < n; ++q) {
+            add_to_row(panel, q, points, points.entries[static_cast<std::size_t>(q)], row);
         }
     }
 
@@ -260,7 +236,8 @@ class PanelCurve {
         for (Index q = 0; q < n; ++q) {
             add_point(panel, t0 + h * rule.nodes[q], abs(h), basis, points);
         }
-        kernel.singular_split(target, points.r.data(), points.z.data(), n, points.entries(), points.log_entries());
+        kernel.singular_split(target, points.r.data(), points.z.data(), n, points.entries.arrays(n),
+                              points.log_entries.arrays(n));
         for (Index q = 0; q < n; ++q) {
             const auto k = static_cast<std::size_t>(q);
             const S sum = points.r[k] + target.r;
@@ -268,9 +245,11 @@ class PanelCurve {
             const S d = distance(target, {points.r[k], points.z[k]}) / rule.nodes[q];
             const S w = rule.weights[q];
             const S wlog = w * log(d * d / (sum * sum + offset * offset)) + 2 * rule.log_weights[q];
+            const KernelBlock<S> smooth = points.entries[k];
+            const KernelBlock<S> logarithm = points.log_entries[k];
             add_to_row(panel, q, points,
-                       {w * points.rr[k] + wlog * points.log_rr[k], w * points.rz[k] + wlog * points.log_rz[k],
-                        w * points.zr[k] + wlog * points.log_zr[k], w * points.zz[k] + wlog * points.log_zz[k]},
+                       {w * smooth.rr + wlog * logarithm.rr, w * smooth.rz + wlog * logarithm.rz,
+                        w * smooth.zr + wlog * logarithm.zr, w * smooth.zz + wlog * logarithm.zz},
                        row);
         }
     }
@@ -287,50 +266,42 @@ class PanelCurve {
             ends.push_back(position(e, S(1)));
         }
         Matrix<S> g(2 * rows, 2 * n);
-        Points points;
-        Points all;
+        Points near;
+        Points far;
+        std::vector<Index> far_nodes;
         Row row(n);
         for (Index i = 0; i < rows; ++i) {
             const Point<S> target{targets.r[i], targets.z[i]};
             row.set_zero();
-            all.clear();
-            std::vector<Index> far;
+            far.clear();
+            far_nodes.clear();
             for (Index e = 0; e < panels(); ++e) {
                 if (at_nodes && e == i / p_) {
                     const S t0 = rules_[p_].nodes[i % p_];
-                    add_singular_side(kernel, e, target, t0, S(0), points, row);
-                    add_singular_side(kernel, e, target, t0, S(1), points, row);
+                    add_singular_side(kernel, e, target, t0, S(0), near, row);
+                    add_singular_side(kernel, e, target, t0, S(1), near, row);
                     continue;
                 }
                 const Point<S>& x1 = ends[static_cast<std::size_t>(2 * e)];
                 const Point<S>& x2 = ends[static_cast<std::size_t>(2 * e + 1)];
                 const Index order = rules_.order(distance(target, x1) + distance(target, x2), distance(x1, x2));
-                if (order != 0 && order <= p_) {
-                    far.push_back(e);
-                    for (Index k = e * p_; k < (e + 1) * p_; ++k) {
-                        all.r.push_back(nodes_.r[k]);
-                        all.z.push_back(nodes_.z[k]);
-                    }
-                } else {
-                    points.clear();
-                    add_part(e, S(0), x1, S(1), x2, target, 0, points);
-                    accumulate(kernel, e, target, points, row);
+                if (order == 0 || order > p_) {
+                    near.clear();
+                    add_part(e, S(0), x1, S(1), x2, target, 0, near);
+                    accumulate(kernel, e, target, near, row);
+                    continue;
+                }
+                for (Index k = e * p_; k < (e + 1) * p_; ++k) {
+                    far.r.push_back(nodes_.r[k]);
+                    far.z.push_back(nodes_.z[k]);
+                    far_nodes.push_back(k);
                 }
             }
-            kernel.singular(target, all.r.data(), all.z.data(), all.size(), all.entries());
-            std::size_t q = 0;
-            for (const Index e : far) {
-                for (Index k = e * p_; k < (e + 1) * p_; ++k, ++q) {
-                    row.rr[k] += weights[k] * all.rr[q];
-                    row.rz[k] += weights[k] * all.rz[q];
-                    row.zr[k] += weights[k] * all.zr[q];
-                    row.zz[k] += weights[k] * all.zz[q];
-                }
+            kernel.singular(target, far.r.data(), far.z.data(), far.size(), far.entries.arrays(far.size()));
+            for (std::size_t q = 0; q < far_nodes.size(); ++q) {
+                row.add(far_nodes[q], weights[far_nodes[q]], far.entries[q]);
             }
-            g.row(i).head(n) = scale * row.rr;
-            g.row(i).tail(n) = scale * row.rz;
-            g.row(rows + i).head(n) = scale * row.zr;
-            g.row(rows + i).tail(n) = scale * row.zz;
+            row.store(scale, i, rows, g);
         }
         return g;
     }

@@ -34,6 +34,22 @@ void require_positive(const char* argument, const S& value) {
 
 }  // namespace detail
 
+/// Smallest of many radii sampled along the profile. Throws InvalidArgument where one is not positive and finite.
+template <ChannelProfile Profile>
+typename Profile::Scalar narrowest_radius(const Profile& profile) {
+    using S = typename Profile::Scalar;
+    constexpr int samples = 2000;
+    S narrowest = std::numeric_limits<S>::infinity();
+    for (int i = 0; i <= samples; ++i) {
+        const S x = S(i) / S(samples);
+        const S z = profile.begin() * (S(1) - x) + profile.end() * x;
+        const S radius = profile.radius(z);
+        detail::require_positive(("profile radius at z = " + std::to_string(static_cast<double>(z))).c_str(), radius);
+        narrowest = std::min(narrowest, radius);
+    }
+    return narrowest;
+}
+
 /// r(z) = radius.
 template <class S = double>
 class StraightTube {
@@ -137,29 +153,15 @@ class CallableProfile {
     using Scalar = S;
     static constexpr bool uniform = false;
 
-    /// Throws InvalidArgument unless begin < end, and where the radius is not positive and finite or the slope is not
-    /// its derivative, as far as samples tell.
+    /// Throws InvalidArgument unless begin < end, where the radius is not positive and finite, and where the slope is
+    /// not its derivative, as far as samples tell.
     CallableProfile(S begin, S end, Radius radius, Slope slope)
         : begin_(begin), end_(end), radius_(std::move(radius)), slope_(std::move(slope)) {
-        using std::abs;
-        using std::cbrt;
         using std::isfinite;
         detail::require(isfinite(begin), "begin of the profile", begin, "finite");
         detail::require(end > begin && isfinite(end), "end of the profile", end, "finite and beyond its begin");
-        constexpr int samples = 1000;
-        const S step = cbrt(std::numeric_limits<S>::epsilon()) * (end - begin);
-        for (int i = 0; i <= samples; ++i) {
-            const S z = begin + (end - begin) * S(i) / S(samples);
-            const std::string at = " at z = " + std::to_string(static_cast<double>(z));
-            detail::require_positive(("profile radius" + at).c_str(), S(radius_(z)));
-            const S low = std::max(begin, S(z - step));
-            const S high = std::min(end, S(z + step));
-            const S chord = (radius_(high) - radius_(low)) / (high - low);
-            const S given = slope_((low + high) / 2);
-            detail::require(
-                abs(given - chord) <= S(1e-2) * (S(1) + abs(chord)), ("profile slope" + at).c_str(), given,
-                ("the derivative of the radius, about " + std::to_string(static_cast<double>(chord))).c_str());
-        }
+        narrowest_radius(*this);
+        check_slope();
     }
 
     S radius(const S& z) const { return radius_(z); }
@@ -168,6 +170,22 @@ class CallableProfile {
     S end() const { return end_; }
 
   private:
+    void check_slope() const {
+        using std::abs;
+        using std::cbrt;
+        constexpr int samples = 200;
+        const S step = cbrt(std::numeric_limits<S>::epsilon()) * (end_ - begin_);
+        for (int i = 0; i < samples; ++i) {
+            const S z = begin_ + (end_ - begin_) * (S(i) + S(0.5)) / S(samples);
+            const S chord = (radius_(z + step) - radius_(z - step)) / (2 * step);
+            const S given = slope_(z);
+            const std::string slope = "profile slope at z = " + std::to_string(static_cast<double>(z));
+            const std::string accepted = "the radius' derivative, " + std::to_string(static_cast<double>(chord));
+            detail::require(abs(given - chord) <= S(1e-2) * (S(1) + abs(chord)), slope.c_str(), given,
+                            accepted.c_str());
+        }
+    }
+
     S begin_, end_;
     Radius radius_;
     Slope slope_;

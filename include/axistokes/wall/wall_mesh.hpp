@@ -31,8 +31,10 @@ class WallMesh {
     using Mesh = ChannelMesh<Profile>;
     static constexpr bool present = true;
 
-    /// Throws InvalidArgument when a parameter is out of range.
-    explicit WallMesh(Profile profile, Params params = {}) : profile_(std::move(profile)), params_(params) {
+    /// Throws InvalidArgument when a parameter is out of range or the profile's radius is somewhere not positive and
+    /// finite.
+    explicit WallMesh(Profile profile, Params params = {})
+        : profile_(std::move(profile)), params_(params), narrowest_(narrowest_radius(profile_)) {
         detail::validate(params);
     }
 
@@ -43,13 +45,7 @@ class WallMesh {
     /// Largest undisturbed velocity, that on the axis at the narrowest place.
     Scalar velocity_scale() const {
         using std::abs;
-        Scalar narrowest = radius(profile_.begin());
-        constexpr int samples = 400;
-        for (int i = 1; i <= samples; ++i) {
-            narrowest = std::min(narrowest, radius(profile_.begin() +
-                                                   (profile_.end() - profile_.begin()) * Scalar(i) / Scalar(samples)));
-        }
-        return 2 * abs(params_.flow_rate) / (detail::pi_value<Scalar>() * narrowest * narrowest);
+        return 2 * abs(params_.flow_rate) / (detail::pi_value<Scalar>() * narrowest_ * narrowest_);
     }
 
     /// The current mesh, if there is one yet.
@@ -58,7 +54,7 @@ class WallMesh {
     Index meshes() const { return meshes_; }
 
     /// The particle's mobility and background velocity in the presence of the wall, from those without it.
-    /// Throws InvalidArgument when a node of the particle is not inside the wall.
+    /// Throws SimulationFailure when a node of the particle is not inside the wall.
     template <class Discretization, class Kernel>
     requires(!ConfiningKernel<Kernel>) void confine(const Discretization& discretization, const Kernel& kernel,
                                                     const Meridian<Scalar>& particle, Matrix<Scalar>& mobility,
@@ -114,9 +110,9 @@ class WallMesh {
         Meridian<Scalar> local = particle;
         local.z.array() -= centre(particle);
         for (Index i = 0; i < local.nodes(); ++i) {
-            const Scalar gap = radius(local.z[i]) - local.r[i];
-            detail::require(gap > Scalar(0), ("distance to the wall of particle node " + std::to_string(i)).c_str(),
-                            gap, "> 0: the particle crosses the wall");
+            if (!(local.r[i] < radius(local.z[i]))) {
+                throw SimulationFailure("the particle crosses the wall at node " + std::to_string(i));
+            }
         }
         if (!mesh_ || !mesh_->suits(local)) {
             mesh_.emplace(profile_, params_, local);
@@ -140,6 +136,7 @@ class WallMesh {
 
     Profile profile_;
     Params params_;
+    Scalar narrowest_;
     std::optional<Mesh> mesh_;
     Eigen::PartialPivLU<Matrix<Scalar>> lu_;
     Vector<Scalar> unit_traction_;  // of the empty channel at flow rate 1
