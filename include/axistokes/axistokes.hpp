@@ -4,8 +4,10 @@
 
 #include "discretization/linear_elements.hpp"
 #include "flow/background.hpp"
+#include "flow/poiseuille.hpp"
 #include "geometry/shapes.hpp"
 #include "kernel/free_space.hpp"
+#include "kernel/tube.hpp"
 #include "membrane/rigid_body.hpp"
 #include "membrane/vesicle.hpp"
 #include "simulator.hpp"

@@ -12,6 +12,8 @@
 #include "../quadrature/kernel_row.hpp"
 #include "linear_surface.hpp"
 
+#include <Eigen/SparseCore>
+
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -136,7 +138,49 @@ class LinearElements : public SplineGeometry<S> {
             }
             row.store(scale, i, rows, g);
         }
+        if constexpr (Kernel::has_regular_part) {
+            add_regular_part(targets, m, kernel, g);
+        }
         return g;
+    }
+
+    /// The kernel's smooth part, for all targets at once. Where the target is as close to the wall as the element, its
+    /// image is at twice that distance from the element, and the rule's order follows this distance as it does for
+    /// targets.
+    template <class Kernel>
+    void add_regular_part(const Meridian<S>& targets, const Meridian<S>& m, const Kernel& kernel, Matrix<S>& g) const {
+        const S nearest = kernel.tube_radius() - targets.r.maxCoeff();
+        Points points;
+        const auto image_distance = [&](const S& r) { return S(kernel.tube_radius() - r + nearest); };
+        for (Index e = 0; e < m.elements(); ++e) {
+            const S length = distance(m.r[e], m.z[e], m.r[e + 1], m.z[e + 1]);
+            const S closest = image_distance(std::max(m.r[e], m.r[e + 1]));
+            const auto parts = static_cast<Index>(std::ceil(static_cast<double>(length / (2 * closest))));
+            for (Index k = 0; k < parts; ++k) {
+                add_rule(m, e, S(k) / S(parts), S(k + 1) / S(parts), regular_order(closest, length / S(parts)), points);
+            }
+        }
+        Meridian<S> nodes{Eigen::Map<const Vector<S>>(points.r.data(), points.size()),
+                          Eigen::Map<const Vector<S>>(points.z.data(), points.size())};
+        std::vector<Eigen::Triplet<S>> entries;
+        const S scale = S(1) / (8 * detail::pi_value<S>());
+        for (Index q = 0; q < points.size(); ++q) {
+            const auto k = static_cast<std::size_t>(q);
+            const auto row = static_cast<int>(q);
+            const auto lower = static_cast<int>(points.element[k]);
+            entries.emplace_back(row, lower, scale * points.lower[k]);
+            entries.emplace_back(row, lower + 1, scale * points.upper[k]);
+        }
+        Eigen::SparseMatrix<S, Eigen::RowMajor> weights(points.size(), m.nodes());
+        weights.setFromTriplets(entries.begin(), entries.end());
+        kernel.regular(targets, nodes, weights, g);
+    }
+
+    /// Nodes for a singularity abreast of the middle of a part of an element, at `closest` from it.
+    Index regular_order(const S& closest, const S& length) const {
+        using std::sqrt;
+        const Index n = order(2 * sqrt(length * length / 4 + closest * closest), length);
+        return n == 0 ? rules_.largest() : n;
     }
 
     /// Points on the part [begin, end] of element e; `from`, `to` are the target's distances to the part's ends.
@@ -156,6 +200,14 @@ class LinearElements : public SplineGeometry<S> {
             add_element(m, e, middle, end, target, half, to, depth + 1, points);
             return;
         }
+        add_rule(m, e, begin, end, n, points);
+    }
+
+    /// The rule with n nodes on the part [begin, end] of element e.
+    void add_rule(const Meridian<S>& m, Index e, const S& begin, const S& end, Index n, Points& points) const {
+        const S dr = m.r[e + 1] - m.r[e];
+        const S dz = m.z[e + 1] - m.z[e];
+        const S length = distance(S(0), S(0), dr, dz);
         const GaussLegendreRule<S>& rule = rules_[n];
         for (Index q = 0; q < n; ++q) {
             const S t = begin + rule.nodes[q] * (end - begin);
