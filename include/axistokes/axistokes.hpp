@@ -15,3 +15,6 @@
 #include "solver/gmres.hpp"
 #include "time/explicit_euler.hpp"
 #include "time/semi_implicit_euler.hpp"
+#include "wall/passage.hpp"
+#include "wall/points_profile.hpp"
+#include "wall/wall_mesh.hpp"

@@ -179,7 +179,7 @@ class LinearElements : public SplineGeometry<S> {
     /// Nodes for a singularity abreast of the middle of a part of an element, at `closest` from it.
     Index regular_order(const S& closest, const S& length) const {
         using std::sqrt;
-        const Index n = order(2 * sqrt(length * length / 4 + closest * closest), length);
+        const Index n = rules_.order(2 * sqrt(length * length / 4 + closest * closest), length);
         return n == 0 ? rules_.largest() : n;
     }
 
