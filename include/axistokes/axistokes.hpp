@@ -6,6 +6,8 @@
 #include "flow/background.hpp"
 #include "flow/poiseuille.hpp"
 #include "geometry/shapes.hpp"
+#include "io/csv.hpp"
+#include "io/vtk.hpp"
 #include "kernel/free_space.hpp"
 #include "kernel/tube.hpp"
 #include "membrane/rigid_body.hpp"
