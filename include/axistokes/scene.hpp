@@ -126,11 +126,14 @@ class Scene {
 
     /// Undisturbed velocity on the axis at the centroid.
     Scalar centreline_velocity(const Scalar& position) const {
+        Scalar velocity = 0;
         if constexpr (Flow::has_flow) {
-            return flow_.velocity({Scalar(0), position}).z;
-        } else {
-            return Scalar(0);
+            velocity += flow_.velocity({Scalar(0), position}).z;
         }
+        if constexpr (Wall::present) {
+            velocity += wall_.centreline_velocity(position);
+        }
+        return velocity;
     }
 
     /// Distance of the wall from the axis at z in the laboratory frame; infinite without a wall.

@@ -42,10 +42,12 @@ class WallMesh {
     const Params& params() const { return params_; }
     Scalar radius(const Scalar& z) const { return Mesh::channel_radius(profile_, z); }
 
-    /// Largest undisturbed velocity, that on the axis at the narrowest place.
+    /// Velocity on the axis of Poiseuille flow in a tube as wide as the channel is at z.
+    Scalar centreline_velocity(const Scalar& z) const { return peak_velocity(radius(z)); }
+    /// That at the narrowest place.
     Scalar velocity_scale() const {
         using std::abs;
-        return 2 * abs(params_.flow_rate) / (detail::pi_value<Scalar>() * narrowest_ * narrowest_);
+        return abs(peak_velocity(narrowest_));
     }
 
     /// The current mesh, if there is one yet.
@@ -99,6 +101,10 @@ class WallMesh {
     }
 
   private:
+    Scalar peak_velocity(const Scalar& radius) const {
+        return 2 * params_.flow_rate / (detail::pi_value<Scalar>() * radius * radius);
+    }
+
     /// A straight tube's mesh goes with the particle.
     static Scalar centre(const Meridian<Scalar>& particle) {
         return Profile::uniform ? Scalar((particle.z.minCoeff() + particle.z.maxCoeff()) / 2) : Scalar(0);
