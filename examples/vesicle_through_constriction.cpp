@@ -31,7 +31,7 @@ struct Options {
     double tolerance = 1e-4;
     double displacement = 0.01;
     Index elements = 80;
-    Index most_steps = 20000;
+    Index most_steps = 5000;
     Index frames = 9;
     std::string directory;
 

@@ -29,6 +29,8 @@ struct Instant {
     S deformation_rate{};
     /// Added by the particle to the pressure drop along the tube or channel, in kappa/R0^3; 0 without walls.
     S pressure_drop{};
+    /// Largest difference of the undisturbed flow along an element over its length.
+    S shear_rate{};
 };
 
 /// How close the membrane comes to the wall, in R0.
@@ -80,6 +82,7 @@ class Scene {
             particle.z.array() += configuration.position;
             wall_.confine(discretization_, kernel_, particle, mobility, background);
         }
+        instant.shear_rate = shear_rate(configuration.shape, background);
         const Vector<Scalar> load = normal_load(configuration, surface);
         instant.solution = membrane_.solve(
             MobilityProblem<Scalar, Surface>{surface, mobility, background, load, configuration.tension, implicit_time},
@@ -174,6 +177,22 @@ class Scene {
     }
 
   private:
+    static Scalar shear_rate(const Meridian<Scalar>& shape, const Vector<Scalar>& background) {
+        using std::sqrt;
+        Scalar largest = 0;
+        if constexpr (Flow::has_flow) {
+            const Index n = shape.nodes();
+            for (Index i = 0; i + 1 < n; ++i) {
+                const auto square = [](const Scalar& a, const Scalar& b) { return (a - b) * (a - b); };
+                const Scalar du =
+                    square(background[i + 1], background[i]) + square(background[n + i + 1], background[n + i]);
+                const Scalar dx = square(shape.r[i + 1], shape.r[i]) + square(shape.z[i + 1], shape.z[i]);
+                largest = std::max<Scalar>(largest, sqrt(du / dx));
+            }
+        }
+        return largest;
+    }
+
     /// Gravity's load is taken relative to the centroid: the rest is a uniform pressure.
     Vector<Scalar> normal_load(const Configuration<Scalar>& configuration, const Surface& surface) const {
         const Index n = configuration.shape.nodes();

@@ -64,6 +64,8 @@ struct SimulationParams {
     S smallest_time_step = S(1e-9);
     /// Largest normal displacement in a step, in R0.
     S largest_displacement = S(0.02);
+    /// Largest automatic step times the shear rate of the undisturbed flow, which is explicit in the position.
+    S largest_strain = S(0.5);
     /// Growth of the automatic step from one step to the next.
     S growth = S(1.3);
     Index most_steps = 20000;
@@ -84,6 +86,7 @@ void validate(const SimulationParams<S>& p) {
     require(p.largest_time_step >= p.first_time_step, "largest time step", p.largest_time_step,
             "at least the first time step");
     require(p.largest_displacement > S(0), "largest displacement", p.largest_displacement, "> 0");
+    require(p.largest_strain > S(0), "largest strain", p.largest_strain, "> 0");
     require(p.growth > S(1), "growth of the time step", p.growth, "> 1");
     require(p.most_steps >= 1, "number of steps", p.most_steps, "at least 1");
     require(p.longest_time > S(0), "longest time", p.longest_time, "> 0");
@@ -200,6 +203,7 @@ class Simulator {
         Configuration<Scalar> configuration;
         Record record;
         Vector<Scalar> motion;  // velocity relative to the centroid, stacked
+        Scalar shear_rate{};
     };
 
     static std::string text(const Scalar& value) {
@@ -235,6 +239,7 @@ class Simulator {
         next.shape = std::move(step->shape);
         if constexpr (Membrane::deformable) {
             attempt.motion = step->instant.solution.velocity;
+            attempt.shear_rate = step->instant.shear_rate;
             attempt.motion.tail(next.shape.nodes()).array() -= record.velocity;
             next.tension = std::move(step->instant.solution.tension);
             const Scalar displacement = step->instant.deformation_rate * dt_;
@@ -329,8 +334,9 @@ class Simulator {
     void accept(Attempt attempt) {
         const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.velocity_scale());
         const bool accelerating = !history_.empty() && attempt.record.residual > history_.back().residual;
-        // A step that is too long overshoots: the next one goes back.
-        const bool reversed = motion_.size() > 0 && attempt.motion.dot(motion_) < Scalar(0);
+        // A step that is too long overshoots: the next one goes back. On moved nodes velocities cannot be compared.
+        const bool reversed =
+            motion_.size() > 0 && !history_.back().redistributed && attempt.motion.dot(motion_) < Scalar(0);
         motion_ = std::move(attempt.motion);
         time_ = attempt.record.time;
         configuration_ = std::move(attempt.configuration);
@@ -344,6 +350,9 @@ class Simulator {
             }
             if (rate * dt_ > params_.largest_displacement) {
                 dt_ = params_.largest_displacement / rate;
+            }
+            if (attempt.shear_rate * dt_ > params_.largest_strain) {
+                dt_ = params_.largest_strain / attempt.shear_rate;
             }
             dt_ = std::min(dt_, params_.largest_time_step);
         }

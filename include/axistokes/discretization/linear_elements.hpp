@@ -10,6 +10,7 @@
 #include "../geometry/spline_geometry.hpp"
 #include "../quadrature/element_rules.hpp"
 #include "../quadrature/kernel_row.hpp"
+#include "../quadrature/regular_quadrature.hpp"
 #include "linear_surface.hpp"
 
 #include <Eigen/SparseCore>
@@ -144,36 +145,42 @@ class LinearElements : public SplineGeometry<S> {
         return g;
     }
 
-    /// The kernel's smooth part, for all targets at once. Where the target is as close to the wall as the element, its
-    /// image is at twice that distance from the element, and the rule's order follows this distance as it does for
-    /// targets.
+    /// The kernel's smooth part, for all targets at once.
     template <class Kernel>
     void add_regular_part(const Meridian<S>& targets, const Meridian<S>& m, const Kernel& kernel, Matrix<S>& g) const {
         const S nearest = kernel.tube_radius() - targets.r.maxCoeff();
+        kernel.regular(
+            targets, [&](const S& distance) { return regular_quadrature(m, kernel.tube_radius(), nearest, distance); },
+            g);
+    }
+
+    /// Rules for integrands whose singularities are the targets' images, as far behind the wall as the targets, at
+    /// least `nearest`, are before it, and no closer than `apart` in any case: the order follows as it does for
+    /// targets.
+    RegularQuadrature<S> regular_quadrature(const Meridian<S>& m, const S& tube_radius, const S& nearest,
+                                            const S& apart) const {
         Points points;
-        const auto image_distance = [&](const S& r) { return S(kernel.tube_radius() - r + nearest); };
         for (Index e = 0; e < m.elements(); ++e) {
             const S length = distance(m.r[e], m.z[e], m.r[e + 1], m.z[e + 1]);
-            const S closest = image_distance(std::max(m.r[e], m.r[e + 1]));
+            const S closest = std::max<S>(apart, tube_radius - std::max(m.r[e], m.r[e + 1]) + nearest);
             const auto parts = static_cast<Index>(std::ceil(static_cast<double>(length / (2 * closest))));
             for (Index k = 0; k < parts; ++k) {
                 add_rule(m, e, S(k) / S(parts), S(k + 1) / S(parts), regular_order(closest, length / S(parts)), points);
             }
         }
-        Meridian<S> nodes{Eigen::Map<const Vector<S>>(points.r.data(), points.size()),
-                          Eigen::Map<const Vector<S>>(points.z.data(), points.size())};
+        RegularQuadrature<S> result;
+        result.points = {Eigen::Map<const Vector<S>>(points.r.data(), points.size()),
+                         Eigen::Map<const Vector<S>>(points.z.data(), points.size())};
         std::vector<Eigen::Triplet<S>> entries;
         const S scale = S(1) / (8 * detail::pi_value<S>());
-        for (Index q = 0; q < points.size(); ++q) {
-            const auto k = static_cast<std::size_t>(q);
-            const auto row = static_cast<int>(q);
-            const auto lower = static_cast<int>(points.element[k]);
-            entries.emplace_back(row, lower, scale * points.lower[k]);
-            entries.emplace_back(row, lower + 1, scale * points.upper[k]);
+        for (std::size_t q = 0; q < points.r.size(); ++q) {
+            const auto lower = static_cast<int>(points.element[q]);
+            entries.emplace_back(static_cast<int>(q), lower, scale * points.lower[q]);
+            entries.emplace_back(static_cast<int>(q), lower + 1, scale * points.upper[q]);
         }
-        Eigen::SparseMatrix<S, Eigen::RowMajor> weights(points.size(), m.nodes());
-        weights.setFromTriplets(entries.begin(), entries.end());
-        kernel.regular(targets, nodes, weights, g);
+        result.weights.resize(points.size(), m.nodes());
+        result.weights.setFromTriplets(entries.begin(), entries.end());
+        return result;
     }
 
     /// Nodes for a singularity abreast of the middle of a part of an element, at `closest` from it.

@@ -17,8 +17,8 @@ enum class SpheroidKind { prolate, oblate };
 template <class S>
 S spheroid_area(const S& a, const S& c) {
     using std::abs;
-    using std::asin;
     using std::asinh;
+    using std::atan2;
     using std::sqrt;
     const S pi = detail::pi_value<S>();
     detail::require(a > S(0), "equatorial semi-axis", a, "> 0");
@@ -36,7 +36,7 @@ S spheroid_area(const S& a, const S& c) {
         return c > a ? S(2 * pi * a * (a + c * ratio)) : S(2 * pi * (a * a + c * c * ratio));
     }
     if (c > a) {
-        return 2 * pi * a * (a + c * asin(e) / e);
+        return 2 * pi * a * (a + c * atan2(S(e * c), a) / e);  // = asin(e), also for c >> a
     }
     return 2 * pi * (a * a + c * c * asinh(e * a / c) / e);  // asinh(e a/c) = artanh(e), also for c << a
 }
@@ -67,7 +67,7 @@ Meridian<S> spheroid(const S& a, const S& c, Index elements, const NodeSpacing<S
     for (Index i = 0; i <= fine; ++i) {
         angle[i] = pi * S(i) / S(fine);
     }
-    const CubicSpline<S> density = detail::node_density(MeridianSpline<S>(at_angles(angle)), spacing);
+    const CubicSpline<S> density = detail::node_density(MeridianSpline<S>(at_angles(angle)), spacing, elements);
     Vector<S> cumulative(fine + 1);
     cumulative[0] = 0;
     for (Index e = 0; e < fine; ++e) {
@@ -116,7 +116,7 @@ S spheroid_aspect_of_excess_area(const S& excess_area, SpheroidKind kind) {
         return S(1);
     }
     const S target = 4 * detail::pi_value<S>() + excess_area;
-    const int sign = kind == SpheroidKind::prolate ? 1 : -1;
+    const S sign = kind == SpheroidKind::prolate ? S(1) : S(-1);
     S low = 0;
     S high = 12;  // of |log(aspect)|
     for (int k = 0; k < std::numeric_limits<S>::digits + 4; ++k) {

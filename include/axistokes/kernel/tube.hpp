@@ -10,6 +10,7 @@
 
 #include "../geometry/meridian.hpp"
 #include "../quadrature/fourier_panels.hpp"
+#include "../quadrature/regular_quadrature.hpp"
 #include "free_space.hpp"
 #include "tube_modes.hpp"
 
@@ -56,28 +57,28 @@ class TubeSpectrum {
         }
         // Zeros of the determinant, the tube's eigenvalues: the first at zeta Rc = +-1.467 + 4.466 i, the others
         // beyond, between the directions of that one and of the imaginary axis.
-        FourierIntegrand f{furthest, std::numeric_limits<double>::infinity(), 4.46 / radius, 0.95, y / gap};
+        FourierIntegrand f{furthest, false, 4.46 / radius, 0.95, y / gap};
         if constexpr (turned) {
             const double slope = std::sqrt(0.5);
-            f = {furthest, 1.5 * y, 2.1 / radius, 0.45, y / (slope * (gap + closest))};
+            f = {furthest, true, 2.1 / radius, 0.45, y / (slope * (gap + closest))};
         }
         f.range = std::max(f.range, 0.1 * gap);
         reach_ = y;
         for (const FourierNode<S>& node : fourier_nodes<S>(f, eps)) {
-            const C zeta = node.zeta * direction();
-            evaluators_.emplace_back(zeta, tube_radius);
-            coupling_.push_back(weighted(node, zeta * tube_radius));
+            evaluators_.emplace_back(node.zeta, direction(), tube_radius);
+            coupling_.push_back(weighted(node, direction() * (node.zeta * tube_radius)));
         }
     }
 
     std::size_t size() const { return evaluators_.size(); }
     const C& zeta(std::size_t k) const { return evaluators_[k].zeta(); }
+    const S& modulus(std::size_t k) const { return evaluators_[k].modulus(); }
 
     TubeModes<C> target(std::size_t k, const S& r, const S& gap) const { return evaluators_[k](r, gap, table()); }
 
     /// sum_l S_kl u^l, with the quadrature weight.
     TubeModes<C> source(std::size_t k, const S& r, const S& gap) const {
-        const TubeModes<C> u = evaluators_[k](r, gap, table());
+        const TubeModes<C> u = target(k, r, gap);
         const TubeCoupling<C>& s = coupling_[k];
         return {s.pp * u.zp + s.pq * u.zq, s.pp * u.rp + s.pq * u.rq, s.pq * u.zp + s.qq * u.zq,
                 s.pq * u.rp + s.qq * u.rq};
@@ -130,6 +131,9 @@ class TubeSpectrum {
     std::vector<TubeModeEvaluator<C>> evaluators_;
     std::vector<TubeCoupling<C>> coupling_;
 };
+
+template <class S, class Kernel>
+class TubeAssembly;
 
 }  // namespace detail
 
@@ -195,11 +199,13 @@ class TubeKernel : public FreeSpaceKernel<S> {
         return {a.rr + b.rr, a.rz + b.rz, a.zr + b.zr, a.zz + b.zz};
     }
 
-    /// out += M_c integrated: `points` are quadrature points, `weights` (points x nodes) what a unit density at each
-    /// node contributes to the force at each point. out is 2 targets x 2 nodes, stacked [r; z]. Throws InvalidArgument
-    /// for a point outside the tube or a target and a source both on the wall.
-    void regular(const Meridian<S>& targets, const Meridian<S>& points,
-                 const Eigen::SparseMatrix<S, Eigen::RowMajor>& weights, Matrix<S>& out) const;
+    /// out += M_c integrated over the sources, 2 targets x 2 nodes, stacked [r; z]. `quadrature(distance)` is a
+    /// RegularQuadrature whose integrands are analytic within `distance` and within their distance to the nearest
+    /// image. Throws InvalidArgument for a point outside the tube or a target and a source both on the wall.
+    template <class Quadrature>
+    void regular(const Meridian<S>& targets, const Quadrature& quadrature, Matrix<S>& out) const {
+        Assembly(*this, targets).add_to(out, quadrature);
+    }
 
     /// What nodal force densities (stacked, kappa/R0^3) on `surface` add to the pressure drop along the tube: by the
     /// reciprocal theorem with Poiseuille flow of unit flux, -Int f_z 2 (1 - r^2/Rc^2)/(pi Rc^2) dA.
@@ -215,7 +221,8 @@ class TubeKernel : public FreeSpaceKernel<S> {
     }
 
   private:
-    class Assembly;
+    using Assembly = detail::TubeAssembly<S, TubeKernel>;
+    friend Assembly;
 
     S gap(const S& r, const char* what) const {
         detail::require(r >= S(0) && r <= tube_radius_, what, r, "in [0, tube radius]");

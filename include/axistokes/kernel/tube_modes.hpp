@@ -16,6 +16,11 @@
 #include "../special/bessel.hpp"
 #include "../special/bessel_table.hpp"
 
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
 namespace axistokes::detail {
 
 /// S of eq. (2), symmetric; combined with the weight of a quadrature in zeta.
@@ -62,6 +67,41 @@ struct TubeCouplingSplit {
     TubeCoupling<C> logarithm;
 };
 
+/// exp(-modulus direction length), direction 1 or exp(i pi/4); exp(i modulus direction length) is its conjugate there.
+template <class C>
+C ray_decay(const real_of<C>& modulus, const real_of<C>& length) {
+    using std::cos;
+    using std::exp;
+    using std::sin;
+    using std::sqrt;
+    using S = real_of<C>;
+    if constexpr (std::is_same_v<C, S>) {
+        return exp(-modulus * length);
+    } else {
+        static const S root = sqrt(S(0.5));
+        const S x = root * modulus * length;
+        const S scale = exp(-x);
+        return {scale * cos(x), -scale * sin(x)};
+    }
+}
+
+/// Coefficients of I0, I1/(x/2), I2/(x^2/8) in powers of q = x^2/4, enough for |q| <= 1.
+template <class S>
+struct SmallArgumentSeries {
+    SmallArgumentSeries() {
+        S zero = 1;
+        for (int k = 0; k < 2 || zero > std::numeric_limits<S>::epsilon() / 16; ++k) {
+            if (k > 0) {
+                zero /= S(k) * S(k);
+            }
+            i0.push_back(zero);
+            first.push_back(zero / S(k + 1));
+            second.push_back(2 * zero / (S(k + 1) * S(k + 2)));
+        }
+    }
+    std::vector<S> i0, first, second;
+};
+
 /// Evaluates both modes at one wave number for any radius. Scaled Bessel functions throughout; the remaining
 /// exponential exp(-zeta (Rc - r)) comes from the distance to the wall, which the caller forms from the coordinates.
 template <class C>
@@ -69,55 +109,68 @@ class TubeModeEvaluator {
   public:
     using S = real_of<C>;
 
-    TubeModeEvaluator(const C& zeta, const S& tube_radius)
-        : zeta_(zeta), w_(zeta * tube_radius), tube_radius_(tube_radius) {
-        using std::abs;
-        modulus_ = abs(zeta);
+    /// zeta = modulus * direction.
+    TubeModeEvaluator(const S& modulus, const C& direction, const S& tube_radius)
+        : modulus_(modulus), zeta_(modulus * direction), w_(zeta_ * tube_radius), tube_radius_(tube_radius) {
+        using std::exp;
+        series_ = modulus * tube_radius <= S(2);
         const ScaledI<C> i = scaled_bessel_i<C>(w_);
-        series_ = abs(w_) <= S(2);
         const C d = w_ * i.difference;
         // Determinant of the two modes regular at 0, W (I0 I2 - I1^2), in the form that does not cancel.
         const C determinant = series_ ? C(w_ * (i.i0 * i.i2 - i.i1 * i.i1)) : C((i.i0 + i.i1) * d - S(2) * i.i0 * i.i1);
-        const C scale = S(1) / determinant;
+        // The series give unscaled functions of zeta r.
+        const C scale = series_ ? C(exp(-w_) / determinant) : C(S(1) / determinant);
         i0_ = scale * i.i0;
         i1_ = scale * i.i1;
-        i2_ = scale * i.i2;
-        d_over_det_ = scale * d;
+        wi2_ = scale * w_ * i.i2;
+        d_ = scale * d;
+        wi1_ = w_ * i1_;
+        outer_ = w_ * i0_ + S(2) * i0_ - d_;
     }
 
     const C& zeta() const { return zeta_; }
+    const S& modulus() const { return modulus_; }
 
     /// At radius r, `gap` from the wall; `table` gives the scaled Bessel functions along the ray of zeta.
     TubeModes<C> operator()(const S& r, const S& gap, const ScaledITable<C>& table) const {
-        using std::exp;
         const C t = zeta_ * r;
-        const C delta = zeta_ * gap;
-        const C decay = exp(-delta);
         if (series_) {
-            const ScaledI<C> b = scaled_bessel_i<C>(t);
-            const C ti1 = t * b.i1;
-            const C ti2 = t * b.i2;
-            return {decay * (w_ * i2_ * b.i0 - i1_ * ti1), decay * (w_ * i2_ * b.i1 - i1_ * ti2),
-                    decay * (i0_ * ti1 - w_ * i1_ * b.i0), decay * (i0_ * ti2 - w_ * i1_ * b.i1)};
+            static const SmallArgumentSeries<S> series;
+            const C q = t * t / S(4);
+            std::size_t k = series.i0.size() - 1;
+            C i0 = C(series.i0[k]);
+            C first = C(series.first[k]);
+            C second = C(series.second[k]);
+            while (k-- > 0) {
+                i0 = i0 * q + series.i0[k];
+                first = first * q + series.first[k];
+                second = second * q + series.second[k];
+            }
+            const C i1 = t / S(2) * first;
+            const C ti1 = S(2) * q * first;
+            const C ti2 = q / S(2) * t * second;
+            return {wi2_ * i0 - i1_ * ti1, wi2_ * i1 - i1_ * ti2, i0_ * ti1 - wi1_ * i0, i0_ * ti2 - wi1_ * i1};
         }
-        // W - t = delta taken out of the differences of products: no cancellation of large W against large t.
+        // W - t = zeta gap taken out of the differences of products: no cancellation of large W against large t.
         const ScaledIPair<C> b = table(modulus_ * r);
-        const C shift = delta * i0_;
-        const C inner = (r / tube_radius_) * d_over_det_;
-        const C p = shift + inner;
-        const C q = d_over_det_ - shift;
+        const C decay = ray_decay<C>(modulus_, gap);
+        const C shift = zeta_ * gap * i0_;
+        const C p = shift + (r / tube_radius_) * d_;
+        const C q = d_ - shift;
         const C i0 = decay * b.i0;
         const C c = decay * b.difference;
-        return {i0 * (p - S(2) * i1_) + t * c * i1_, i0 * p - w_ * c * i0_, i0 * q - t * c * i0_,
-                i0 * (q - S(2) * i0_) + c * (w_ * i0_ + S(2) * i0_ - d_over_det_)};
+        const C tc = t * c;
+        return {i0 * (p - S(2) * i1_) + tc * i1_, i0 * p - c * (w_ * i0_), i0 * q - tc * i0_,
+                i0 * (q - S(2) * i0_) + c * outer_};
     }
 
   private:
+    S modulus_;
     C zeta_, w_;
     S tube_radius_;
-    S modulus_;
     bool series_;
-    C i0_, i1_, i2_, d_over_det_;  // at W, over the determinant; d = W (I0 - I1)
+    // At W, over the determinant: I0, I1, W I1, W I2, d = W (I0 - I1), (W + 2) I0 - d.
+    C i0_, i1_, wi1_, wi2_, d_, outer_;
 };
 
 }  // namespace axistokes::detail

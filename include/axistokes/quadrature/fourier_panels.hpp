@@ -27,12 +27,16 @@ struct FourierNode {
     bool first_panel = false;
 };
 
+/// On a ray of slope 1 an ellipse stays in the quadrant where the integrand is bounded up to this axis sum: its panel
+/// is at most twice as long as it is far from 0, and 2 (rho^2 + rho^-2) <= 16.
+inline constexpr double bounded_ratio = 2.8;
+
 /// Eq. (1); `distance` is that of the nearest singularity from the panel's centre, at right angles to it.
-inline double panel_nodes(double length, double range, double distance, double digits) {
+inline double panel_nodes(double length, double range, double distance, double digits, double largest_ratio = 60) {
     const double half = length / 2;
     const double largest = distance / half + std::sqrt(1 + distance * distance / (half * half));
     double best = 1e9;
-    for (double rho = 1.05; rho < std::min(largest, 60.0); rho *= 1.1) {
+    for (double rho = 1.05; rho < std::min(largest, largest_ratio); rho *= 1.1) {
         best = std::min(best, (digits + range * length * (rho - 1 / rho) / 4) / (2 * std::log(rho)));
     }
     return best;
@@ -40,11 +44,11 @@ inline double panel_nodes(double length, double range, double distance, double d
 
 /// What is known of the integrand, all lengths inverse to zeta's.
 struct FourierIntegrand {
-    double range;        // largest |x|
-    double decay_range;  // the integrand is negligible where zeta |x| exceeds this; infinite on the real axis
-    double radius;       // distance from the ray to the nearest singularity other than 0
-    double sector;       // that distance at zeta is at least sector * zeta
-    double cut;          // the integrand is negligible past this zeta
+    double range;   // largest |x|
+    bool decays;    // along the ray exp(i zeta x) decays, and is bounded on the ellipses of all but the first panel
+    double radius;  // distance from the ray to the nearest singularity other than 0
+    double sector;  // that distance at zeta is at least sector * zeta
+    double cut;     // the integrand is negligible past this zeta
 };
 
 template <class S>
@@ -74,8 +78,8 @@ std::vector<FourierNode<S>> fourier_nodes(const FourierIntegrand& f, double eps)
     while (begin < f.cut) {
         double length = std::min(2 * begin, f.cut - begin);
         const auto wanted = [&] {
-            return panel_nodes(length, std::min(f.range, f.decay_range / begin),
-                               std::max(f.radius, f.sector * (begin + length / 2)), digits);
+            return panel_nodes(length, f.decays ? 0 : f.range, std::max(f.radius, f.sector * (begin + length / 2)),
+                               digits, f.decays ? bounded_ratio : 60);
         };
         while (wanted() > most_nodes) {
             length *= 0.8;

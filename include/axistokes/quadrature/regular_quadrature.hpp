@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Quadrature of a kernel's smooth part over a discretised meridian.
+#pragma once
+
+#include "../geometry/meridian.hpp"
+
+#include <Eigen/SparseCore>
+
+namespace axistokes {
+
+/// Points on the meridian, and (points x nodes) what a unit force density at each node contributes to the force per
+/// unit azimuthal length at each point: quadrature weight times interpolation, with the factor 1/(8 pi) of the single
+/// layer.
+template <class S>
+struct RegularQuadrature {
+    Meridian<S> points;
+    Eigen::SparseMatrix<S, Eigen::RowMajor> weights;
+};
+
+}  // namespace axistokes
