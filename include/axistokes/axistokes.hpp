@@ -17,3 +17,6 @@
 #include "time/explicit_euler.hpp"
 #include "time/extrapolated_euler.hpp"
 #include "time/semi_implicit_euler.hpp"
+#include "wall/passage.hpp"
+#include "wall/points_profile.hpp"
+#include "wall/wall_mesh.hpp"

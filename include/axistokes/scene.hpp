@@ -27,6 +27,8 @@ struct Instant {
     S velocity{};  // of the centroid, along z
     /// Largest normal velocity relative to the centroid's: 0 in a stationary state.
     S deformation_rate{};
+    /// Added by the particle to the pressure drop along the tube or channel, in kappa/R0^3; 0 without walls.
+    S pressure_drop{};
     /// Largest difference of the undisturbed flow along an element over its length.
     S shear_rate{};
 };
@@ -81,12 +83,12 @@ class Scene {
         frozen.surface = discretization_.surface(configuration.shape);
         frozen.mobility = discretization_.single_layer(configuration.shape, kernel_);
         frozen.background = background_velocity(configuration);
-        frozen.shear_rate = shear_rate(configuration.shape, frozen.background);
         if constexpr (Wall::present) {
             Meridian<Scalar> particle = configuration.shape;
             particle.z.array() += configuration.position;
             wall_.confine(discretization_, kernel_, particle, frozen.mobility, frozen.background);
         }
+        frozen.shear_rate = shear_rate(configuration.shape, frozen.background);
         frozen.load = normal_load(configuration, frozen.surface);
         return frozen;
     }
@@ -116,7 +118,22 @@ class Scene {
         const Vector<Scalar> moment = surface.weight.cwiseProduct(configuration.shape.z);
         instant.velocity = moment.dot(normal_velocity) / moment.dot(surface.normal_z);
         instant.deformation_rate = (normal_velocity - instant.velocity * surface.normal_z).cwiseAbs().maxCoeff();
+        if constexpr (ConfiningKernel<Kernel>) {
+            instant.pressure_drop = kernel_.pressure_drop(surface, instant.solution.force);
+        }
+        if constexpr (Wall::present) {
+            instant.pressure_drop = wall_.pressure_drop(surface, instant.solution.force);
+        }
         return instant;
+    }
+
+    /// A typical velocity of what drives the scene.
+    Scalar velocity_scale() const {
+        if constexpr (Wall::present) {
+            return std::max<Scalar>(flow_.velocity_scale(), wall_.velocity_scale());
+        } else {
+            return flow_.velocity_scale();
+        }
     }
 
     /// Undisturbed velocity at the nodes, stacked.
@@ -136,11 +153,14 @@ class Scene {
 
     /// Undisturbed velocity on the axis at the centroid.
     Scalar centreline_velocity(const Scalar& position) const {
+        Scalar velocity = 0;
         if constexpr (Flow::has_flow) {
-            return flow_.velocity({Scalar(0), position}).z;
-        } else {
-            return Scalar(0);
+            velocity += flow_.velocity({Scalar(0), position}).z;
         }
+        if constexpr (Wall::present) {
+            velocity += wall_.centreline_velocity(position);
+        }
+        return velocity;
     }
 
     /// Distance of the wall from the axis at z in the laboratory frame; infinite without a wall.

@@ -49,7 +49,7 @@ struct StepRecord {
     S film_thickness_min = std::numeric_limits<S>::infinity();  // distance to the wall
     S film_thickness_mean = std::numeric_limits<S>::infinity();
     S step_error{};      // estimated, in R0; integrators with an estimate only
-    S pressure_drop{};   // added by the particle, in kappa/R0^3; in tubes only
+    S pressure_drop{};   // added by the particle, in kappa/R0^3; 0 without walls
     Index rejected = 0;  // attempts with larger steps before this one
     bool redistributed = false;
 };
@@ -252,7 +252,7 @@ class Simulator {
         }
         Attempt attempt;
         Record& record = attempt.record;
-        record.residual = step->instant.deformation_rate / std::max(Scalar(1), scene_.flow().velocity_scale());
+        record.residual = step->instant.deformation_rate / std::max(Scalar(1), scene_.velocity_scale());
         record.velocity = step->instant.velocity;
         if constexpr (estimates_error) {
             record.step_error = step->error;
@@ -288,9 +288,7 @@ class Simulator {
                 return std::nullopt;
             }
         }
-        if constexpr (ConfiningKernel<Kernel>) {
-            record.pressure_drop = scene_.kernel().pressure_drop(step->instant.surface, step->instant.solution.force);
-        }
+        record.pressure_drop = step->instant.pressure_drop;
         return attempt;
     }
 
@@ -363,7 +361,7 @@ class Simulator {
 
     void accept(Attempt attempt) {
         using std::abs;
-        const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.flow().velocity_scale());
+        const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.velocity_scale());
         const bool accelerating = !history_.empty() && attempt.record.residual > history_.back().residual;
         // A step that is too long overshoots: the next one goes back. On moved nodes velocities cannot be compared.
         const bool reversed =
