@@ -52,6 +52,7 @@ concept Background = requires(const B& background, Point<typename B::Scalar> poi
     { B::has_load } -> std::convertible_to<bool>;
     { background.velocity(point) } -> std::same_as<Point<typename B::Scalar>>;
     { background.normal_load(point) } -> std::convertible_to<typename B::Scalar>;
+    { background.velocity_scale() } -> std::convertible_to<typename B::Scalar>;
 };
 
 /// LinearSolver: `factorize(A)` prepares a square dense matrix, `solve(b)` returns x with A x = b. Both throw

@@ -302,12 +302,16 @@ class Simulator {
         const Measures<Scalar> raw = discretization.measures(shape);
         record.area_error = raw.area / area_ - 1;
         record.volume_error = raw.volume / volume_ - 1;
-        if (!discretization.restore(shape, area_, volume_)) {
+        bool restored = discretization.restore(shape, area_, volume_);
+        record.redistributed = discretization.redistribute(shape);
+        if (record.redistributed) {
+            restored = restored && discretization.restore(shape, area_, volume_);
+        }
+        if (!restored) {
             cause = "area and volume drifted by " + text(record.area_error) + " and " + text(record.volume_error) +
                     " and could not be restored";
             return false;
         }
-        record.redistributed = discretization.redistribute(shape);
         return usable(shape, cause);
     }
 
