@@ -9,6 +9,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>

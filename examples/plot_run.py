@@ -65,8 +65,17 @@ def cross_section(shape):
 
 
 def draw_drive(axes, summary):
-    """Gravity or flow as an arrow at the left edge, in axes coordinates."""
+    """Gravity or flow as an arrow at the left edge; the flow in a tube as its profile below the vesicle."""
     parameters = summary.get("parameters", {})
+    wall = summary.get("tube_radius")
+    arrow = {"arrowstyle": "-|>", "color": "black", "lw": 1.2, "mutation_scale": 9}
+    if wall and "capillary_number" in parameters:
+        bottom, top = axes.get_ylim()
+        base = bottom + 0.02 * (top - bottom)
+        height = 0.1 * (top - bottom)
+        for x in np.linspace(-0.75, 0.75, 7):
+            axes.annotate("", (x * wall, base + height * (1 - x * x)), (x * wall, base), arrowprops=arrow)
+        return
     if "capillary_number" in parameters or "unbounded_capillary_number" in parameters:
         start, end, label = 0.12, 0.30, "flow"
     elif "bond" in parameters:
@@ -74,7 +83,7 @@ def draw_drive(axes, summary):
     else:
         return
     axes.annotate("", (0.13, end), (0.13, start), xycoords="axes fraction",
-                  arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.6, "mutation_scale": 14})
+                  arrowprops=arrow | {"lw": 1.6, "mutation_scale": 14})
     axes.text(0.13, 0.09, label, transform=axes.transAxes, ha="center", va="top")
 
 

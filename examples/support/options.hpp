@@ -65,11 +65,13 @@ struct VesicleOptions {
         app.add_option("--initial", kind, "initial shape: prolate or oblate spheroid")->capture_default_str();
     }
 
-    axistokes::Meridian<double> shape(axistokes::Index elements) const {
+    axistokes::SpheroidKind spheroid_kind() const {
         axistokes::detail::require(kind == "prolate" || kind == "oblate", "initial shape", kind, "prolate or oblate");
-        return axistokes::spheroid_of_excess_area<double>(
-            excess_area, kind == "prolate" ? axistokes::SpheroidKind::prolate : axistokes::SpheroidKind::oblate,
-            elements);
+        return kind == "prolate" ? axistokes::SpheroidKind::prolate : axistokes::SpheroidKind::oblate;
+    }
+
+    axistokes::Meridian<double> shape(axistokes::Index elements) const {
+        return axistokes::spheroid_of_excess_area<double>(excess_area, spheroid_kind(), elements);
     }
 };
 

@@ -4,8 +4,7 @@
 
 #include "discretization/linear_elements.hpp"
 #include "flow/background.hpp"
-#include "flow/poiseuille.hpp"
-#include "geometry/shapes.hpp"
+#include "geometry/tube_shapes.hpp"
 #include "io/csv.hpp"
 #include "io/vtk.hpp"
 #include "kernel/free_space.hpp"
@@ -16,4 +15,8 @@
 #include "solver/dense.hpp"
 #include "solver/gmres.hpp"
 #include "time/explicit_euler.hpp"
+#include "time/extrapolated_euler.hpp"
 #include "time/semi_implicit_euler.hpp"
+#include "wall/passage.hpp"
+#include "wall/points_profile.hpp"
+#include "wall/wall_mesh.hpp"

@@ -73,8 +73,8 @@ Index node_at(const Meridian<S>& meridian, const Point<S>& x) {
 
 }  // namespace detail
 
-/// u = u_inf + G f at the grid's nodes. In a tube the grid ends at the wall.
-/// Throws InvalidArgument when the grid is not positive, finite and of at least 2 x 2 nodes.
+/// u = u_inf + G f at the grid's nodes, with the flow of a meshed wall; 0 beyond the wall. In a tube the grid ends
+/// there. Throws InvalidArgument when the grid is not positive, finite and of at least 2 x 2 nodes.
 template <class SceneType, class S, class Surface>
 FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configuration,
                         const Instant<S, Surface>& instant, FlowGrid<S> grid = {}) {
@@ -95,18 +95,40 @@ FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configur
     const Vector<S>& total = instant.solution.force;
     const Vector<S> force = total - (surface.flux(total) / surface.flux(normals)) * normals;
 
+    // A copy: evaluation may need a new mesh.
+    auto wall = scene.wall();
+    Meridian<S> particle = configuration.shape;
+    particle.z.array() += configuration.position;
+    const auto disturbance = [&] {
+        if constexpr (std::remove_cvref_t<decltype(wall)>::present) {
+            return [channel = wall.field(scene.discretization(), kernel, particle, force),
+                    z = configuration.position](Meridian<S> row) {
+                row.z.array() += z;
+                return channel.velocity(row);
+            };
+        } else {
+            return [&](const Meridian<S>& row) -> Vector<S> {
+                return scene.discretization().single_layer_at(row, configuration.shape, kernel) * force;
+            };
+        }
+    }();
+
     // A row at a time: the matrix for all points would be large.
     const Index n = grid.columns;
     Meridian<S> row{Vector<S>::LinSpaced(n, S(0), grid.radius), Vector<S>(n)};
     for (Index k = 0; k < grid.rows; ++k) {
         row.z.setConstant(grid.half_length * (S(2 * k) / S(grid.rows - 1) - S(1)));
-        const Vector<S> velocity = scene.discretization().single_layer_at(row, configuration.shape, kernel) * force;
+        const Vector<S> velocity = disturbance(row);
         for (Index i = 0; i < n; ++i) {
             const Index node = k * n + i;
             const Point<S> x{row.r[i], row.z[i]};
             field.points.r[node] = x.r;
             field.points.z[node] = x.z;
             field.inside[static_cast<std::size_t>(node)] = detail::encloses(configuration.shape, x);
+            if (x.r >= scene.wall_radius(x.z + configuration.position)) {
+                field.velocity_r[node] = field.velocity_z[node] = S(0);
+                continue;
+            }
             const Index on_membrane = detail::node_at(configuration.shape, x);
             if (on_membrane >= 0) {
                 field.velocity_r[node] = instant.solution.velocity[on_membrane];
