@@ -28,10 +28,9 @@ struct RunOptions {
         add_number(app, "--elements", elements, "elements on the meridian");
         add_number(app, "--tolerance", tolerance, "stationary when the residual is below this");
         add_output_to(app);
-        // CLI11 2.1 has no std::optional with a validator of its own.
-        add_optional(app, "--dt", time_step, "fixed time step (default: automatic)");
-        add_optional(app, "--time", time, "stop at this time, stationary or not");
-        add_optional(app, "--max-steps", steps, "stop after this many steps, stationary or not");
+        add_number(app, "--dt", time_step, "fixed time step (default: automatic)");
+        add_number(app, "--time", time, "stop at this time, stationary or not");
+        add_number(app, "--max-steps", steps, "stop after this many steps, stationary or not");
     }
 
     void add_output_to(CLI::App& app) {
@@ -49,14 +48,6 @@ struct RunOptions {
         params.longest_time = time.value_or(params.longest_time);
         params.most_steps = steps.value_or(params.most_steps);
         return params;
-    }
-
-  private:
-    template <class Number>
-    static void add_optional(CLI::App& app, const std::string& name, std::optional<Number>& value,
-                             const std::string& description) {
-        add_number(app, name, value.emplace(), description)->default_str("");
-        value.reset();
     }
 };
 

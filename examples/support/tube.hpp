@@ -14,9 +14,7 @@ struct TubeOptions {
     std::optional<double> confinement;
 
     void add_to(CLI::App& app, const std::string& without) {
-        add_number(app, "--confinement", confinement.emplace(), "R0 over the tube's radius; without it " + without)
-            ->default_str("");
-        confinement.reset();
+        add_number(app, "--confinement", confinement, "R0 over the tube's radius; without it " + without);
     }
 
     double radius() const {
