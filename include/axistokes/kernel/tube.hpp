@@ -49,7 +49,7 @@ class TubeSpectrum {
     /// `closest`, `furthest`: bounds of |z - z0|; `gap`: least sum of the two points' distances to the wall.
     TubeSpectrum(const S& tube_radius, double closest, double furthest, double gap, double eps)
         : tube_radius_(tube_radius) {
-        const double radius = static_cast<double>(tube_radius);
+        const auto radius = static_cast<double>(tube_radius);
         // (1 + y/2)^2 e^(-y) / y is what the modes of a pair with zeta gap = y can amount to; the tail, the first panel
         // and the others share the tolerance.
         eps /= 4;
