@@ -49,11 +49,13 @@ class TubeSpectrum {
     /// `closest`, `furthest`: bounds of |z - z0|; `gap`: least sum of the two points' distances to the wall.
     TubeSpectrum(const S& tube_radius, double closest, double furthest, double gap, double eps)
         : tube_radius_(tube_radius) {
-        const double radius = static_cast<double>(tube_radius);
-        // (1 + y/2)^2 e^(-y) / y is what the modes of a pair with zeta gap = y can amount to.
+        const auto radius = static_cast<double>(tube_radius);
+        // (1 + y/2)^2 e^(-y) / y is what the modes of a pair with zeta gap = y can amount to; the tail, the first panel
+        // and the others share the tolerance.
+        eps /= 4;
         double y = std::log(1 / eps);
         for (int i = 0; i < 20; ++i) {
-            y = std::log(1 / eps) + 2 * std::log(1 + y / 2) - std::log(y) + 1;
+            y = std::log(1 / eps) + 2 * std::log(1 + y / 2) - std::log(y);
         }
         // Zeros of the determinant, the tube's eigenvalues: the first at zeta Rc = +-1.467 + 4.466 i, the others
         // beyond, between the directions of that one and of the imaginary axis.
