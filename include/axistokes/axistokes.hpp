@@ -9,6 +9,7 @@
 #include "io/vtk.hpp"
 #include "kernel/free_space.hpp"
 #include "kernel/tube.hpp"
+#include "kernel/tube_filon.hpp"
 #include "membrane/rigid_body.hpp"
 #include "membrane/vesicle.hpp"
 #include "simulator.hpp"
