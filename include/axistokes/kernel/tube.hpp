@@ -66,7 +66,9 @@ class TubeSpectrum {
         }
         f.range = std::max(f.range, 0.1 * gap);
         reach_ = y;
-        for (const FourierNode<S>& node : fourier_nodes<S>(f, eps)) {
+        FourierNodes<S> quadrature = fourier_nodes<S>(f, eps);
+        panels_ = std::move(quadrature.panels);
+        for (const FourierNode<S>& node : quadrature.nodes) {
             evaluators_.emplace_back(node.zeta, direction(), tube_radius);
             coupling_.push_back(weighted(node, direction() * (node.zeta * tube_radius)));
         }
@@ -76,7 +78,18 @@ class TubeSpectrum {
     const C& zeta(std::size_t k) const { return evaluators_[k].zeta(); }
     const S& modulus(std::size_t k) const { return evaluators_[k].modulus(); }
 
-    TubeModes<C> target(std::size_t k, const S& r, const S& gap) const { return evaluators_[k](r, gap, table()); }
+    const S& tube_radius() const { return tube_radius_; }
+    const std::vector<FourierPanel<S>>& panels() const { return panels_; }
+    const WallFactors<C>& wall(std::size_t k) const { return evaluators_[k].wall(); }
+    /// S_kl with the quadrature weight.
+    const TubeCoupling<C>& coupling(std::size_t k) const { return coupling_[k]; }
+    /// Scaled Bessel functions along the ray of all wave numbers.
+    static const ScaledITable<C>& bessel() {
+        static const ScaledITable<C> shared(direction());
+        return shared;
+    }
+
+    TubeModes<C> target(std::size_t k, const S& r, const S& gap) const { return evaluators_[k](r, gap, bessel()); }
 
     /// sum_l S_kl u^l, with the quadrature weight.
     TubeModes<C> source(std::size_t k, const S& r, const S& gap) const {
@@ -107,11 +120,6 @@ class TubeSpectrum {
         }
     }
 
-    static const ScaledITable<C>& table() {
-        static const ScaledITable<C> shared(direction());
-        return shared;
-    }
-
     /// On the first panel S = smooth + log(W) logarithm, log(W) = log(zeta modulus) + log(direction Rc).
     TubeCoupling<C> weighted(const FourierNode<S>& node, const C& w) const {
         using std::log;
@@ -132,6 +140,7 @@ class TubeSpectrum {
     double reach_ = 0;
     std::vector<TubeModeEvaluator<C>> evaluators_;
     std::vector<TubeCoupling<C>> coupling_;
+    std::vector<FourierPanel<S>> panels_;
 };
 
 template <class S, class Kernel>

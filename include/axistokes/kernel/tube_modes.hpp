@@ -102,6 +102,12 @@ struct SmallArgumentSeries {
     std::vector<S> i0, first, second;
 };
 
+/// At W, over the determinant: I0, I1, W I0, W I1, W I2, d = W (I0 - I1), (W + 2) I0 - d.
+template <class C>
+struct WallFactors {
+    C i0{}, i1{}, wi0{}, wi1{}, wi2{}, d{}, outer{};
+};
+
 /// Evaluates both modes at one wave number for any radius. Scaled Bessel functions throughout; the remaining
 /// exponential exp(-zeta (Rc - r)) comes from the distance to the wall, which the caller forms from the coordinates.
 template <class C>
@@ -120,19 +126,22 @@ class TubeModeEvaluator {
         const C determinant = series_ ? C(w_ * (i.i0 * i.i2 - i.i1 * i.i1)) : C((i.i0 + i.i1) * d - S(2) * i.i0 * i.i1);
         // The series give unscaled functions of zeta r.
         const C scale = series_ ? C(exp(-w_) / determinant) : C(S(1) / determinant);
-        i0_ = scale * i.i0;
-        i1_ = scale * i.i1;
-        wi2_ = scale * w_ * i.i2;
-        d_ = scale * d;
-        wi1_ = w_ * i1_;
-        outer_ = w_ * i0_ + S(2) * i0_ - d_;
+        wall_.i0 = scale * i.i0;
+        wall_.i1 = scale * i.i1;
+        wall_.wi2 = scale * w_ * i.i2;
+        wall_.d = scale * d;
+        wall_.wi1 = w_ * wall_.i1;
+        wall_.wi0 = w_ * wall_.i0;
+        wall_.outer = wall_.wi0 + S(2) * wall_.i0 - wall_.d;
     }
 
     const C& zeta() const { return zeta_; }
     const S& modulus() const { return modulus_; }
+    const WallFactors<C>& wall() const { return wall_; }
 
     /// At radius r, `gap` from the wall; `table` gives the scaled Bessel functions along the ray of zeta.
     TubeModes<C> operator()(const S& r, const S& gap, const ScaledITable<C>& table) const {
+        const WallFactors<C>& w = wall_;
         const C t = zeta_ * r;
         if (series_) {
             static const SmallArgumentSeries<S> series;
@@ -149,19 +158,19 @@ class TubeModeEvaluator {
             const C i1 = t / S(2) * first;
             const C ti1 = S(2) * q * first;
             const C ti2 = q / S(2) * t * second;
-            return {wi2_ * i0 - i1_ * ti1, wi2_ * i1 - i1_ * ti2, i0_ * ti1 - wi1_ * i0, i0_ * ti2 - wi1_ * i1};
+            return {w.wi2 * i0 - w.i1 * ti1, w.wi2 * i1 - w.i1 * ti2, w.i0 * ti1 - w.wi1 * i0, w.i0 * ti2 - w.wi1 * i1};
         }
         // W - t = zeta gap taken out of the differences of products: no cancellation of large W against large t.
         const ScaledIPair<C> b = table(modulus_ * r);
         const C decay = ray_decay<C>(modulus_, gap);
-        const C shift = zeta_ * gap * i0_;
-        const C p = shift + (r / tube_radius_) * d_;
-        const C q = d_ - shift;
+        const C shift = zeta_ * gap * w.i0;
+        const C p = shift + (r / tube_radius_) * w.d;
+        const C q = w.d - shift;
         const C i0 = decay * b.i0;
         const C c = decay * b.difference;
         const C tc = t * c;
-        return {i0 * (p - S(2) * i1_) + tc * i1_, i0 * p - c * (w_ * i0_), i0 * q - tc * i0_,
-                i0 * (q - S(2) * i0_) + c * outer_};
+        return {i0 * (p - S(2) * w.i1) + tc * w.i1, i0 * p - c * w.wi0, i0 * q - tc * w.i0,
+                i0 * (q - S(2) * w.i0) + c * w.outer};
     }
 
   private:
@@ -169,8 +178,7 @@ class TubeModeEvaluator {
     C zeta_, w_;
     S tube_radius_;
     bool series_;
-    // At W, over the determinant: I0, I1, W I1, W I2, d = W (I0 - I1), (W + 2) I0 - d.
-    C i0_, i1_, wi1_, wi2_, d_, outer_;
+    WallFactors<C> wall_;
 };
 
 }  // namespace axistokes::detail

@@ -27,6 +27,23 @@ struct FourierNode {
     bool first_panel = false;
 };
 
+/// `count` nodes from `first` on, symmetric about `centre`. Panels of the same length and count have the same offsets.
+template <class S>
+struct FourierPanel {
+    S centre{};
+    double length = 0;
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
+template <class S>
+struct FourierNodes {
+    std::vector<FourierNode<S>> nodes;
+    std::vector<FourierPanel<S>> panels;
+};
+
+inline constexpr int most_panel_nodes = 48;
+
 /// On a ray of slope 1 an ellipse stays in the quadrant where the integrand is bounded up to this axis sum: its panel
 /// is at most twice as long as it is far from 0, and 2 (rho^2 + rho^-2) <= 16.
 inline constexpr double bounded_ratio = 2.8;
@@ -52,21 +69,22 @@ struct FourierIntegrand {
 };
 
 template <class S>
-std::vector<FourierNode<S>> fourier_nodes(const FourierIntegrand& f, double eps) {
+FourierNodes<S> fourier_nodes(const FourierIntegrand& f, double eps) {
     using std::log;
-    constexpr Index most_nodes = 48;
+    constexpr Index most_nodes = most_panel_nodes;
     static const GaussLegendreTable<S> rules(most_nodes);
     const double digits = std::log(1 / eps);
-    std::vector<FourierNode<S>> nodes;
+    FourierNodes<S> result;
     const auto add = [&](double begin, double length, double wanted, bool first) {
         const auto n = std::clamp<Index>(static_cast<Index>(std::ceil(wanted)), 2, most_nodes);
         const GaussLegendreRule<S>& rule = rules[n];
+        result.panels.push_back({S(begin) + S(length) / 2, length, result.nodes.size(), static_cast<std::size_t>(n)});
         for (Index q = 0; q < n; ++q) {
             const S zeta = S(begin) + S(length) * rule.nodes[q];
             const S weight = S(length) * rule.weights[q];
             const S log_weight =
                 first ? S(weight * log(S(length)) + S(length) * rule.log_weights[q]) : S(weight * log(zeta));
-            nodes.push_back({zeta, weight, log_weight, first});
+            result.nodes.push_back({zeta, weight, log_weight, first});
         }
     };
     double begin = std::min({f.radius / 2, 4 / f.range, f.cut});
@@ -75,19 +93,21 @@ std::vector<FourierNode<S>> fourier_nodes(const FourierIntegrand& f, double eps)
         begin *= 0.8;
     }
     add(0, begin, first(), true);
+    double longest = f.cut;
     while (begin < f.cut) {
-        double length = std::min(2 * begin, f.cut - begin);
+        double length = std::min({2 * begin, longest, f.cut - begin});
         const auto wanted = [&] {
             return panel_nodes(length, f.decays ? 0 : f.range, std::max(f.radius, f.sector * (begin + length / 2)),
                                digits, f.decays ? bounded_ratio : 60);
         };
         while (wanted() > most_nodes) {
             length *= 0.8;
+            longest = length;  // the same from here on: offsets are shared
         }
         add(begin, length, wanted(), false);
         begin += length;
     }
-    return nodes;
+    return result;
 }
 
 }  // namespace axistokes::detail

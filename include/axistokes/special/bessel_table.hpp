@@ -5,6 +5,7 @@
 
 #include "bessel.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -33,10 +34,14 @@ template <class C>
 class ScaledITable {
     using S = real_of<C>;
     static constexpr bool tabulated = std::is_same_v<S, double> || std::is_same_v<S, float>;
-    static constexpr int cells = 20;         // of width 1 in x, and as many of width 1/cells in cells/x beyond
-    static constexpr int coefficients = 15;  // odd; interpolation error below 1e-16 on every cell
+    static constexpr std::size_t asymptotic_terms = 13;  // odd
+    static constexpr int coefficients = 15;              // odd; interpolation error below 1e-16 on every cell
 
   public:
+    static constexpr int cells = 20;  // of width 1 in x, and as many of width 1/cells in cells/x beyond
+    /// Whether `beyond` exists: on the real axis exp(-2x) is negligible past `cells`, and one polynomial does.
+    static constexpr bool asymptotic = tabulated && std::is_same_v<C, S>;
+
     explicit ScaledITable(const C& direction) : direction_(direction) {
         if constexpr (tabulated) {
             for (int k = 0; k < cells; ++k) {
@@ -51,6 +56,33 @@ class ScaledITable {
                 });
             }
         }
+        if constexpr (asymptotic) {
+            const Cell all = fit([&](long double xi) {
+                const long double x = 2 * cells / (xi + 1);
+                Pair v = value(x);
+                v.i0 *= std::sqrt(x);
+                v.difference *= x * std::sqrt(x);
+                return v;
+            });
+            std::copy_n(all.begin(), asymptotic_terms, beyond_.begin());
+        }
+    }
+
+    /// sqrt(x) times the one and x^(3/2) times the other function, given 1/x <= 1/cells.
+    ScaledIPair<C> beyond(const S& inverse) const {
+        const S xi = 2 * S(cells) * inverse - S(1);
+        const S square = xi * xi;
+        ScaledIPair<C> even = beyond_[asymptotic_terms - 1];
+        ScaledIPair<C> odd = beyond_[asymptotic_terms - 2];
+        for (std::size_t k = asymptotic_terms - 3; k >= 2; k -= 2) {
+            even.i0 = even.i0 * square + beyond_[k].i0;
+            even.difference = even.difference * square + beyond_[k].difference;
+            odd.i0 = odd.i0 * square + beyond_[k - 1].i0;
+            odd.difference = odd.difference * square + beyond_[k - 1].difference;
+        }
+        even.i0 = even.i0 * square + beyond_[0].i0;
+        even.difference = even.difference * square + beyond_[0].difference;
+        return {even.i0 + xi * odd.i0, even.difference + xi * odd.difference};
     }
 
     ScaledIPair<C> operator()(const S& x) const {
@@ -145,6 +177,7 @@ class ScaledITable {
     C direction_;
     std::array<Cell, cells> near_;
     std::array<Cell, cells> far_;
+    std::array<ScaledIPair<C>, asymptotic_terms> beyond_;
 };
 
 }  // namespace axistokes::detail
