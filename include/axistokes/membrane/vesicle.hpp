@@ -51,7 +51,7 @@ class Vesicle {
     /// Velocities, forces and tension of a vesicle. The unknowns are (u, gamma) of
     ///   u - t G F u - G T gamma = u_inf + G (F x + load),    D u = 0,
     /// with t = problem.implicit_time, F the bending operator and T, D the tension force and the divergence. Tension
-    /// also resists the curvature created during the step, at its previous value, where it is positive.
+    /// also resists the curvature created during the step, at its previous value, as far as that is positive.
     template <class Surface, class Solver>
     MobilitySolution<S> solve(const MobilityProblem<S, Surface>& problem, Solver& solver) const {
         using Operator = typename Surface::Operator;
@@ -66,7 +66,7 @@ class Vesicle {
         const Operator bending = bending_operator(surface);
         Operator implicit = bending;
         if (problem.tension.size() == tensions) {
-            const Vector<S> pull = -2 * surface.at_nodes(problem.tension).cwiseMax(S(0));
+            const Vector<S> pull = -2 * positive_part(surface.at_nodes(problem.tension));
             implicit += surface.along_normal(Operator(pull.asDiagonal() * surface.mean_curvature_of));
         }
 
@@ -108,6 +108,13 @@ class Vesicle {
     /// alone admits deformations to first order. The limit is a resistance to the rate of change of the curvature,
     /// large against the viscous one of the fluid (which is 1 in these units).
     static constexpr double saturated_resistance = 1e5;
+
+    /// (gamma + sqrt(gamma^2 + m^2))/2 with m the mean of |gamma|: a kink would cost higher-order steps their order,
+    /// and slightly negative tensions their stability.
+    static Vector<S> positive_part(const Vector<S>& tension) {
+        const S mean = tension.cwiseAbs().mean();
+        return (tension + (tension.cwiseAbs2().array() + mean * mean).sqrt().matrix()) / 2;
+    }
 
     /// Curvature variations of an excess area D are about sqrt(D); below 1e-6 the tension's mean is noise.
     template <class Surface>
