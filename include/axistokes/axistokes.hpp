@@ -16,3 +16,4 @@
 #include "time/explicit_euler.hpp"
 #include "time/extrapolated_euler.hpp"
 #include "time/semi_implicit_euler.hpp"
+#include "time/stationary_solver.hpp"

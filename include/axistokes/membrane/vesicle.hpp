@@ -48,6 +48,12 @@ class Vesicle {
         return surface.along_normal(scalar);
     }
 
+    /// Bending and tension force density on `surface`, stacked.
+    template <class Surface>
+    static Vector<S> force(const Surface& surface, const Vector<S>& tension) {
+        return bending_operator(surface) * surface.positions() + surface.tension_force * tension;
+    }
+
     /// Velocities, forces and tension of a vesicle. The unknowns are (u, gamma) of
     ///   u - t G F u - G T gamma = u_inf + G (F x + load),    D u = 0,
     /// with t = problem.implicit_time, F the bending operator and T, D the tension force and the divergence. Tension
