@@ -18,6 +18,7 @@
 #include "time/explicit_euler.hpp"
 #include "time/extrapolated_euler.hpp"
 #include "time/semi_implicit_euler.hpp"
+#include "time/stationary_solver.hpp"
 #include "wall/passage.hpp"
 #include "wall/points_profile.hpp"
 #include "wall/wall_mesh.hpp"
