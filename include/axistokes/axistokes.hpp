@@ -3,6 +3,7 @@
 #pragma once
 
 #include "discretization/linear_elements.hpp"
+#include "discretization/spectral_meridian.hpp"
 #include "flow/background.hpp"
 #include "geometry/shapes.hpp"
 #include "kernel/free_space.hpp"
