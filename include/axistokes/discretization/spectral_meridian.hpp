@@ -125,7 +125,7 @@ class SpectralMeridian : public SpectralGeometry<S> {
         SpectralMeshingParams<S> meshing;
 
         static S default_tolerance() {
-            const S wanted = S(1e-12);
+            const S wanted = S(1e-10);
             const S reachable = 16 * std::numeric_limits<S>::epsilon();
             return wanted > reachable ? wanted : reachable;
         }
@@ -276,9 +276,11 @@ class SpectralMeridian : public SpectralGeometry<S> {
             return true;
         }
 
+        /// NaN counts as far: halving would not end.
         bool far(const S& begin, const S& end, const Point<S>& first, const Point<S>& last) const {
             using std::abs;
-            return distance(target_, first) + distance(target_, last) >= rules_.needed_sum_ * speed_ * abs(end - begin);
+            return !(distance(target_, first) + distance(target_, last) <
+                     rules_.needed_sum_ * speed_ * abs(end - begin));
         }
 
         /// [begin, end] of a panel, halved until the target is far enough from all parts. Regular points come after
@@ -307,7 +309,10 @@ class SpectralMeridian : public SpectralGeometry<S> {
             Point<S> there = last;
             const Point<S> mirror{-target_.r, target_.z};
             if (target_.r > S(0)) {
-                while (2 * target_.r + distance(mirror, there) < mirror_clearance * distance(target_, there)) {
+                const auto reaches_mirror = [&] {
+                    return 2 * target_.r + distance(mirror, there) < mirror_clearance * distance(target_, there);
+                };
+                for (int depth = 0; depth < deepest_halving && reaches_mirror(); ++depth) {
                     cut = here + (cut - here) / 2;
                     there = at(cut);
                 }

@@ -65,10 +65,10 @@ struct SpectralSurface {
     Vector<S> surface_divergence(const Vector<S>& field) const { return at_nodes(divergence * field); }
 };
 
-/// Degree of the tension's series. The tension is a Lagrange multiplier of div_s u = 0: below N, so that no mode of it
-/// is invisible to the nodal forces (cos N t has no slope at any node); docs/spectral.md, section 3.
+/// Degree of the tension's series. The tension is the Lagrange multiplier of div_s u = 0: with one mode less than the
+/// coordinates, every mode of it exerts forces and no motion of the nodes goes unseen (docs/spectral.md, section 3).
 inline Index tension_degree(Index degree) {
-    return degree - 2;
+    return degree - 1;
 }
 
 namespace detail {

@@ -216,7 +216,7 @@ class TrigonometricBasis {
         // sin and cos of m pi/(2N).
         const auto half_sine = [&](Index m) {
             using std::sin;
-            return S(sin(detail::pi_value<S>() * S(m) / S(2 * degree_)));
+            return S(sin(detail::pi_value<S>() * S(m > degree_ ? 2 * degree_ - m : m) / S(2 * degree_)));
         };
         const auto first = [&](Index m) {
             m = (m + 2 * degree_) % (2 * degree_);
@@ -250,6 +250,11 @@ class TrigonometricBasis {
         for (Matrix<S>* d : {&even_first_, &even_second_}) {
             d->diagonal().setZero();
             d->diagonal() = -d->rowwise().sum();
+        }
+        // Likewise the second derivative of sin t is -sin t.
+        for (Index j = 1; j < degree_; ++j) {
+            const Vector<S> others = odd_second_.row(j).transpose().cwiseProduct(sines_.head(n));
+            odd_second_(j, j) -= (sines_[j] + others.sum()) / sines_[j];
         }
         even_first_.row(0).setZero();
         even_first_.row(degree_).setZero();
