@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tabulates the free-space ring Green function M for the target-source pairs of a CSV file.
+#include <axistokes/io/atomic_file.hpp>
 #include <axistokes/kernel/free_space.hpp>
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 namespace {
@@ -158,27 +158,11 @@ std::vector<Row> read_rows(const fs::path& file) {
 }
 
 void write_rows(std::ostream& out, const std::vector<Row>& rows) {
-    out.precision(17);
     out << "r0,z0,r,z,M_rr,M_rz,M_zr,M_zz\n";
     for (const auto& [target, source, m] : rows) {
         out << target.r << ',' << target.z << ',' << source.r << ',' << source.z << ',' << m.rr << ',' << m.rz << ','
             << m.zr << ',' << m.zz << '\n';
     }
-}
-
-/// Writes under a temporary name and renames, so that greens.csv is never incomplete.
-void write_table(const fs::path& directory, const std::vector<Row>& rows) {
-    fs::create_directories(directory);
-    const fs::path temporary = directory / "greens.csv.tmp";
-    std::ofstream out(temporary);
-    write_rows(out, rows);
-    out.close();
-    if (!out) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw std::runtime_error(temporary.string() + ": cannot be written");
-    }
-    fs::rename(temporary, directory / "greens.csv");
 }
 
 }  // namespace
@@ -196,7 +180,9 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? EXIT_SUCCESS : 2;
     }
     try {
-        write_table(directory, read_rows(input));
+        const std::vector<Row> rows = read_rows(input);
+        axistokes::write_atomically(fs::path(directory) / "greens.csv",
+                                    [&](std::ostream& out) { write_rows(out, rows); });
     } catch (const std::exception& error) {
         std::cerr << "greens_table: " << error.what() << '\n';
         return 2;

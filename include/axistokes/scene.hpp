@@ -27,6 +27,10 @@ struct Instant {
     S velocity{};  // of the centroid, along z
     /// Largest normal velocity relative to the centroid's: 0 in a stationary state.
     S deformation_rate{};
+    /// Added by the particle to the pressure drop along the tube or channel, in kappa/R0^3; 0 without walls.
+    S pressure_drop{};
+    /// Largest difference of the undisturbed flow along an element over its length.
+    S shear_rate{};
 };
 
 /// How close the membrane comes to the wall, in R0.
@@ -47,6 +51,7 @@ class Scene {
     using Scalar = typename Kernel::Scalar;
     using Surface = typename Discretization::Surface;
     using InstantType = Instant<Scalar, Surface>;
+    static constexpr bool deformable = Membrane::deformable;
     static constexpr bool confined = ConfiningKernel<Kernel> || Wall::present;
 
     Scene(Kernel kernel, Discretization discretization, Membrane membrane, Flow flow, Solver solver, Wall wall = {})
@@ -64,24 +69,48 @@ class Scene {
     const Solver& solver() const { return solver_; }
     const Wall& wall() const { return wall_; }
 
-    /// Velocities with the membrane's forces taken at x + implicit_time * u (0: at x).
-    /// Throws SimulationFailure when the system cannot be solved.
-    InstantType evaluate(const Configuration<Scalar>& configuration, const Scalar& implicit_time) {
-        InstantType instant;
-        instant.surface = discretization_.surface(configuration.shape);
-        const Surface& surface = instant.surface;
-        const Index n = surface.size();
-        Matrix<Scalar> mobility = discretization_.single_layer(configuration.shape, kernel_);
-        Vector<Scalar> background = background_velocity(configuration);
+    /// What an evaluation needs of a configuration however implicit it is: the costly part.
+    struct Frozen {
+        Surface surface;
+        Matrix<Scalar> mobility;
+        Vector<Scalar> background;
+        Vector<Scalar> load;
+        Scalar shear_rate{};
+    };
+
+    Frozen freeze(const Configuration<Scalar>& configuration) {
+        Frozen frozen;
+        frozen.surface = discretization_.surface(configuration.shape);
+        frozen.mobility = discretization_.single_layer(configuration.shape, kernel_);
+        frozen.background = background_velocity(configuration);
         if constexpr (Wall::present) {
             Meridian<Scalar> particle = configuration.shape;
             particle.z.array() += configuration.position;
-            wall_.confine(discretization_, kernel_, particle, mobility, background);
+            wall_.confine(discretization_, kernel_, particle, frozen.mobility, frozen.background);
         }
-        const Vector<Scalar> load = normal_load(configuration, surface);
-        instant.solution = membrane_.solve(
-            MobilityProblem<Scalar, Surface>{surface, mobility, background, load, configuration.tension, implicit_time},
-            solver_);
+        frozen.shear_rate = shear_rate(configuration.shape, frozen.background);
+        frozen.load = normal_load(configuration, frozen.surface);
+        return frozen;
+    }
+
+    /// Velocities with the membrane's forces taken at x + implicit_time * u (0: at x).
+    /// Throws SimulationFailure when the system cannot be solved.
+    InstantType evaluate(const Configuration<Scalar>& configuration, const Scalar& implicit_time) {
+        return evaluate(freeze(configuration), configuration, implicit_time);
+    }
+
+    /// The same, for a configuration that is frozen already.
+    InstantType evaluate(const Frozen& frozen, const Configuration<Scalar>& configuration,
+                         const Scalar& implicit_time) {
+        InstantType instant;
+        instant.surface = frozen.surface;
+        instant.shear_rate = frozen.shear_rate;
+        const Surface& surface = frozen.surface;
+        const Index n = surface.size();
+        instant.solution =
+            membrane_.solve(MobilityProblem<Scalar, Surface>{surface, frozen.mobility, frozen.background, frozen.load,
+                                                             configuration.tension, implicit_time},
+                            solver_);
         const Vector<Scalar>& u = instant.solution.velocity;
         const Vector<Scalar> normal_velocity =
             surface.normal_r.cwiseProduct(u.head(n)) + surface.normal_z.cwiseProduct(u.tail(n));
@@ -89,7 +118,22 @@ class Scene {
         const Vector<Scalar> moment = surface.weight.cwiseProduct(configuration.shape.z);
         instant.velocity = moment.dot(normal_velocity) / moment.dot(surface.normal_z);
         instant.deformation_rate = (normal_velocity - instant.velocity * surface.normal_z).cwiseAbs().maxCoeff();
+        if constexpr (ConfiningKernel<Kernel>) {
+            instant.pressure_drop = kernel_.pressure_drop(surface, instant.solution.force);
+        }
+        if constexpr (Wall::present) {
+            instant.pressure_drop = wall_.pressure_drop(surface, instant.solution.force);
+        }
         return instant;
+    }
+
+    /// A typical velocity of what drives the scene.
+    Scalar velocity_scale() const {
+        if constexpr (Wall::present) {
+            return std::max<Scalar>(flow_.velocity_scale(), wall_.velocity_scale());
+        } else {
+            return flow_.velocity_scale();
+        }
     }
 
     /// Undisturbed velocity at the nodes, stacked.
@@ -109,11 +153,14 @@ class Scene {
 
     /// Undisturbed velocity on the axis at the centroid.
     Scalar centreline_velocity(const Scalar& position) const {
+        Scalar velocity = 0;
         if constexpr (Flow::has_flow) {
-            return flow_.velocity({Scalar(0), position}).z;
-        } else {
-            return Scalar(0);
+            velocity += flow_.velocity({Scalar(0), position}).z;
         }
+        if constexpr (Wall::present) {
+            velocity += wall_.centreline_velocity(position);
+        }
+        return velocity;
     }
 
     /// Distance of the wall from the axis at z in the laboratory frame; infinite without a wall.
@@ -154,6 +201,22 @@ class Scene {
     }
 
   private:
+    static Scalar shear_rate(const Meridian<Scalar>& shape, const Vector<Scalar>& background) {
+        using std::sqrt;
+        Scalar largest = 0;
+        if constexpr (Flow::has_flow) {
+            const Index n = shape.nodes();
+            for (Index i = 0; i + 1 < n; ++i) {
+                const auto square = [](const Scalar& a, const Scalar& b) { return (a - b) * (a - b); };
+                const Scalar du =
+                    square(background[i + 1], background[i]) + square(background[n + i + 1], background[n + i]);
+                const Scalar dx = square(shape.r[i + 1], shape.r[i]) + square(shape.z[i + 1], shape.z[i]);
+                largest = std::max<Scalar>(largest, sqrt(du / dx));
+            }
+        }
+        return largest;
+    }
+
     /// Gravity's load is taken relative to the centroid: the rest is a uniform pressure.
     Vector<Scalar> normal_load(const Configuration<Scalar>& configuration, const Surface& surface) const {
         const Index n = configuration.shape.nodes();
