@@ -420,6 +420,34 @@ TEST_CASE("A rigid sphere settles", "[spectral]") {
     CHECK(std::abs(run.step().velocity + 2) < 1e-12);
 }
 
+TEST_CASE("A sphere in a tube", "[spectral]") {
+    // The wall's correction comes from its own points, halved where the film is thin.
+    const auto drag = [](auto discretization, double confinement, Index n) {
+        using Discretization = decltype(discretization);
+        TubeKernel<double>::Params params;
+        params.tolerance = 1e-11;
+        const double pi = detail::pi_value<double>();
+        Simulator<TubeKernel<double>, Discretization, RigidBody<double>, Gravity<double>, SemiImplicitEuler,
+                  DenseLU<double>>
+            run(ellipse(1.0, 1.0, n), Gravity<double>(1.0), {}, TubeKernel<double>(1 / confinement, params),
+                std::move(discretization));
+        return -4 * pi / 3 / (6 * pi * run.step().velocity);
+    };
+    const SpectralMeridian<double> spectral;
+    // Bohlin's series, good to about 1e-4 here: 1/K = 1 - 2.10443 L + 2.08877 L^3 - 0.94813 L^5 - 1.372 L^6 + 3.87 L^8
+    // - 4.19 L^10.
+    const double bohlin = 1 - 2.10443 / 2 + 2.08877 / 8 - 0.94813 / 32 - 1.372 / 64 + 3.87 / 256 - 4.19 / 1024;
+    const double fine = drag(spectral, 0.5, 24);
+    CHECK(std::abs(fine * bohlin - 1) < 3e-3);
+    CHECK(std::abs(drag(spectral, 0.5, 12) / fine - 1) < 1e-9);
+    CHECK(std::abs(drag(spectral, 0.9, 24) / drag(spectral, 0.9, 40) - 1) < 1e-6);
+    // P1 errs by O(h^2).
+    const LinearElements<double> linear;
+    const double p1 = drag(linear, 0.5, 32);
+    const double p2 = drag(linear, 0.5, 64);
+    CHECK(std::abs((p2 + (p2 - p1) / 3) / fine - 1) < 1e-4);
+}
+
 TEST_CASE("Bad parameters and shapes are reported", "[spectral]") {
     SpectralMeridian<double>::Params params;
     params.tolerance = 0;

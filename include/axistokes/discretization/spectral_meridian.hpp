@@ -10,6 +10,7 @@
 
 #include "../geometry/spectral_geometry.hpp"
 #include "../quadrature/gauss_legendre.hpp"
+#include "../quadrature/regular_quadrature.hpp"
 #include "spectral_surface.hpp"
 
 #include <cmath>
@@ -163,6 +164,7 @@ class SpectralMeridian : public SpectralGeometry<S> {
 
   private:
     static constexpr int deepest_halving = 45;
+    static constexpr Index most_parts = 1024;
     /// Least half-axis sum towards the mirror point in the product rule: m1 < 0.12 on its part of the panel. Closer to
     /// the axis the kernel's split is a difference of steep polynomials in m1.
     static constexpr int mirror_clearance = 7;
@@ -240,6 +242,9 @@ class SpectralMeridian : public SpectralGeometry<S> {
             }
             add_far(g);
             g *= S(1) / (8 * detail::pi_value<S>());
+            if constexpr (Kernel::has_regular_part) {
+                add_regular_part(g);
+            }
             return g;
         }
 
@@ -405,6 +410,56 @@ class SpectralMeridian : public SpectralGeometry<S> {
                 near_.zr(q, 0) += factor * log_.zr(q, 0);
                 near_.zz(q, 0) += factor * log_.zz(q, 0);
             }
+        }
+
+        /// The kernel's smooth part, for all targets at once: from points on the curve first, as r and z components
+        /// are interpolated differently. Its singularities are the targets' images, as far behind the wall as the
+        /// targets, at least `nearest`, are before it: panels are halved as for targets abreast of their middles.
+        void add_regular_part(Matrix<S>& g) {
+            using std::sqrt;
+            const S nearest = kernel_.tube_radius() - targets_.r.maxCoeff();
+            t_.clear();
+            weights_.clear();
+            const Index order = rules_.order_;
+            for (Index p = 0; p < panels_->count; ++p) {
+                const S closest =
+                    kernel_.tube_radius() - fixed_.r.segment(p * order, order).maxCoeff() + std::max<S>(nearest, S(0));
+                const S width = panels_->boundary(p + 1) - panels_->boundary(p);
+                const S length = largest_speed_[static_cast<std::size_t>(p)] * width;
+                Index parts = 1;
+                const auto too_long = [&](const S& part) {
+                    return 2 * sqrt(part * part / 4 + closest * closest) < rules_.needed_sum_ * part;
+                };
+                while (too_long(length / S(parts)) && parts < most_parts) {
+                    parts *= 2;
+                }
+                for (Index k = 0; k < parts; ++k) {
+                    for (Index q = 0; q < order; ++q) {
+                        t_.push_back(panels_->boundary(p) + width * (S(k) + rules_.rule_.nodes[q]) / S(parts));
+                        weights_.push_back(width * rules_.rule_.weights[q] / S(parts));
+                    }
+                }
+            }
+            const Index count = static_cast<Index>(t_.size());
+            const Index n = meridian_.nodes();
+            const Vector<S> t = Eigen::Map<const Vector<S>>(t_.data(), count);
+            cardinals_.resize(n, count);
+            for (Index q = 0; q < count; ++q) {
+                basis_->cardinals(t[q], cardinals_.col(q));
+            }
+            moving_.evaluate(t, cardinals_);
+            const Vector<S> even = Eigen::Map<const Vector<S>>(weights_.data(), count).cwiseProduct(moving_.speed) /
+                                   (8 * detail::pi_value<S>());
+            RegularQuadrature<S> points{{moving_.r, moving_.z}, moving_.z, {}};
+            points.weights.resize(count, count);
+            points.weights.setIdentity();
+            const Index rows = targets_.nodes();
+            Matrix<S> m = Matrix<S>::Zero(2 * rows, 2 * count);
+            kernel_.regular(
+                targets_, [&](const S&) { return points; }, m);
+            const Vector<S> odd = even.cwiseProduct(moving_.inverse_sine);
+            g.leftCols(n) += m.leftCols(count) * (odd.asDiagonal() * cardinals_.transpose() * sines_.asDiagonal());
+            g.rightCols(n) += m.rightCols(count) * (even.asDiagonal() * cardinals_.transpose());
         }
 
         const SpectralMeridian& rules_;

@@ -241,18 +241,16 @@ class SpectralGeometry {
             }
         }
         const S length = basis->even_coefficients().row(0).dot(curve.speed) * detail::pi_value<S>();
-        const S width = meshing_.spacing.smoothing * length;
-        if (width > S(0)) {
-            // (1 - width^2 d^2/ds^2)^2 w = density; twice, so that no kink of the density survives.
-            const Vector<S> v2 = curve.speed.cwiseAbs2();
-            const Vector<S> first =
-                (curve.r1.cwiseProduct(curve.r2) + curve.z1.cwiseProduct(curve.z2)).cwiseQuotient(v2.cwiseAbs2());
-            Matrix<S> system = (-width * width) * (v2.cwiseInverse().asDiagonal() * basis->even_second());
-            system += (width * width) * (first.asDiagonal() * basis->even_first());
-            system.diagonal().array() += S(1);
-            const Eigen::PartialPivLU<Matrix<S>> lu(system);
-            density = lu.solve(lu.solve(density));
-        }
+        const S width = std::max<S>(meshing_.spacing.smoothing, S(2) / S(shape.elements())) * length;
+        // (1 - width^2 d^2/ds^2)^2 w = density; twice, so that no kink of the density survives.
+        const Vector<S> v2 = curve.speed.cwiseAbs2();
+        const Vector<S> first =
+            (curve.r1.cwiseProduct(curve.r2) + curve.z1.cwiseProduct(curve.z2)).cwiseQuotient(v2.cwiseAbs2());
+        Matrix<S> system = (-width * width) * (v2.cwiseInverse().asDiagonal() * basis->even_second());
+        system += (width * width) * (first.asDiagonal() * basis->even_first());
+        system.diagonal().array() += S(1);
+        const Eigen::PartialPivLU<Matrix<S>> lu(system);
+        density = lu.solve(lu.solve(density));
         return density.cwiseProduct(curve.speed);
     }
 
