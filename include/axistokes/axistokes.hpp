@@ -3,6 +3,7 @@
 #pragma once
 
 #include "discretization/linear_elements.hpp"
+#include "discretization/spectral_meridian.hpp"
 #include "flow/background.hpp"
 #include "geometry/tube_shapes.hpp"
 #include "io/csv.hpp"
