@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
-// A settling vesicle, assembled from policies.
+// A vesicle in a capillary, assembled from policies.
 #include <axistokes/axistokes.hpp>
 
 #include <iostream>
 
 int main() {
     using namespace axistokes;
-    using Settling = Simulator<FreeSpaceKernel<double>,  // Green function
-                               LinearElements<double>,   // discretisation of the meridian
-                               Vesicle<double>,          // membrane
-                               Gravity<double>,          // what drives it
-                               SemiImplicitEuler,        // time integrator
-                               DenseLU<double>>;         // linear solver
+    using InCapillary = Simulator<TubeKernel<double>,      // Green function
+                                  LinearElements<double>,  // discretisation of the meridian
+                                  Vesicle<double>,         // membrane
+                                  Poiseuille<double>,      // what drives it
+                                  SemiImplicitEuler,       // time integrator
+                                  DenseLU<double>>;        // linear solver
 
-    const auto shape = spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, 64);
-    Settling simulator(shape, Gravity<double>(47));  // Bond number
+    const double tube_radius = 0.9;  // in R0, the radius of the sphere of equal volume
+    const auto shape = shape_in_tube<double>(1.59, tube_radius, SpheroidKind::prolate, 64);  // excess area, elements
+    InCapillary simulator(shape, Poiseuille<double>(100, tube_radius), {}, TubeKernel<double>(tube_radius));
 
     const bool stationary = simulator.run();
 
     const auto& last = simulator.history().back();
     std::cout << (stationary ? "stationary" : "still changing") << " after " << last.step << " steps, velocity "
-              << last.velocity << ", length " << last.length << '\n';
+              << last.velocity << ", film " << last.film_thickness_min << '\n';
     write_vtk_surface("vesicle.vtp", shape_columns(simulator.configuration(), simulator.instant()));
 }

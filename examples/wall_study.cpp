@@ -93,7 +93,7 @@ void nodes_needed(const std::string& directory, double accuracy) {
         const Meridian<double> body = sphere<double>(c.elements);
         const Settling exact = reference(c, body);
         const auto search = [&](const char* mesh, WallGrading grading, Index order, double length) {
-            for (double panels = 2; panels < 4000; panels = std::max(panels + 1, std::floor(panels * 1.1))) {
+            for (double panels = 2; panels < 1000; panels = std::max(panels + 1, std::floor(panels * 1.15))) {
                 WallMeshParams<double> params;
                 params.tolerance = accuracy;
                 params.grading = grading;

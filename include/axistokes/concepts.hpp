@@ -52,6 +52,7 @@ concept Background = requires(const B& background, Point<typename B::Scalar> poi
     { B::has_load } -> std::convertible_to<bool>;
     { background.velocity(point) } -> std::same_as<Point<typename B::Scalar>>;
     { background.normal_load(point) } -> std::convertible_to<typename B::Scalar>;
+    { background.velocity_scale() } -> std::convertible_to<typename B::Scalar>;
 };
 
 /// LinearSolver: `factorize(A)` prepares a square dense matrix, `solve(b)` returns x with A x = b. Both throw
@@ -99,11 +100,11 @@ concept ConfiningKernel = GreenKernel<K> && requires(const K& kernel) {
 /// `velocity_scale()` a typical velocity of the flow that the wall brings with it and `centreline_velocity(z)` that
 /// flow's on the axis (both 0 if the background is the only flow). A policy with present = false has none of these.
 template <class W, class Kernel, class Discretization>
-concept WallFor = !W::present ||
-                  requires(W & wall, const Discretization& discretization, const Kernel& kernel,
-                           const Meridian<typename Kernel::Scalar>& particle, Matrix<typename Kernel::Scalar>& mobility,
-                           Vector<typename Kernel::Scalar>& background, typename Kernel::Scalar z,
-                           const typename Discretization::Surface& surface) {
+concept WallFor =
+    !W::present || requires(W & wall, const Discretization& discretization, const Kernel& kernel,
+                            const Meridian<typename Kernel::Scalar>& particle,
+                            Matrix<typename Kernel::Scalar>& mobility, Vector<typename Kernel::Scalar>& background,
+                            typename Kernel::Scalar z, const typename Discretization::Surface& surface) {
     { wall.confine(discretization, kernel, particle, mobility, background) } -> std::same_as<void>;
     { wall.radius(z) } -> std::convertible_to<typename Kernel::Scalar>;
     { wall.pressure_drop(surface, background) } -> std::convertible_to<typename Kernel::Scalar>;

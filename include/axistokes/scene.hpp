@@ -51,6 +51,7 @@ class Scene {
     using Scalar = typename Kernel::Scalar;
     using Surface = typename Discretization::Surface;
     using InstantType = Instant<Scalar, Surface>;
+    static constexpr bool deformable = Membrane::deformable;
     static constexpr bool confined = ConfiningKernel<Kernel> || Wall::present;
 
     Scene(Kernel kernel, Discretization discretization, Membrane membrane, Flow flow, Solver solver, Wall wall = {})
@@ -68,25 +69,48 @@ class Scene {
     const Solver& solver() const { return solver_; }
     const Wall& wall() const { return wall_; }
 
-    /// Velocities with the membrane's forces taken at x + implicit_time * u (0: at x).
-    /// Throws SimulationFailure when the system cannot be solved.
-    InstantType evaluate(const Configuration<Scalar>& configuration, const Scalar& implicit_time) {
-        InstantType instant;
-        instant.surface = discretization_.surface(configuration.shape);
-        const Surface& surface = instant.surface;
-        const Index n = surface.size();
-        Matrix<Scalar> mobility = discretization_.single_layer(configuration.shape, kernel_);
-        Vector<Scalar> background = background_velocity(configuration);
+    /// What an evaluation needs of a configuration however implicit it is: the costly part.
+    struct Frozen {
+        Surface surface;
+        Matrix<Scalar> mobility;
+        Vector<Scalar> background;
+        Vector<Scalar> load;
+        Scalar shear_rate{};
+    };
+
+    Frozen freeze(const Configuration<Scalar>& configuration) {
+        Frozen frozen;
+        frozen.surface = discretization_.surface(configuration.shape);
+        frozen.mobility = discretization_.single_layer(configuration.shape, kernel_);
+        frozen.background = background_velocity(configuration);
         if constexpr (Wall::present) {
             Meridian<Scalar> particle = configuration.shape;
             particle.z.array() += configuration.position;
-            wall_.confine(discretization_, kernel_, particle, mobility, background);
+            wall_.confine(discretization_, kernel_, particle, frozen.mobility, frozen.background);
         }
-        instant.shear_rate = shear_rate(configuration.shape, background);
-        const Vector<Scalar> load = normal_load(configuration, surface);
-        instant.solution = membrane_.solve(
-            MobilityProblem<Scalar, Surface>{surface, mobility, background, load, configuration.tension, implicit_time},
-            solver_);
+        frozen.shear_rate = shear_rate(configuration.shape, frozen.background);
+        frozen.load = normal_load(configuration, frozen.surface);
+        return frozen;
+    }
+
+    /// Velocities with the membrane's forces taken at x + implicit_time * u (0: at x).
+    /// Throws SimulationFailure when the system cannot be solved.
+    InstantType evaluate(const Configuration<Scalar>& configuration, const Scalar& implicit_time) {
+        return evaluate(freeze(configuration), configuration, implicit_time);
+    }
+
+    /// The same, for a configuration that is frozen already.
+    InstantType evaluate(const Frozen& frozen, const Configuration<Scalar>& configuration,
+                         const Scalar& implicit_time) {
+        InstantType instant;
+        instant.surface = frozen.surface;
+        instant.shear_rate = frozen.shear_rate;
+        const Surface& surface = frozen.surface;
+        const Index n = surface.size();
+        instant.solution =
+            membrane_.solve(MobilityProblem<Scalar, Surface>{surface, frozen.mobility, frozen.background, frozen.load,
+                                                             configuration.tension, implicit_time},
+                            solver_);
         const Vector<Scalar>& u = instant.solution.velocity;
         const Vector<Scalar> normal_velocity =
             surface.normal_r.cwiseProduct(u.head(n)) + surface.normal_z.cwiseProduct(u.tail(n));
@@ -125,6 +149,20 @@ class Scene {
             }
         }
         return velocity;
+    }
+
+    /// Gravity's load is taken relative to the centroid: the rest is a uniform pressure.
+    Vector<Scalar> normal_load(const Configuration<Scalar>& configuration, const Surface& surface) const {
+        const Index n = configuration.shape.nodes();
+        Vector<Scalar> load = Vector<Scalar>::Zero(2 * n);
+        if constexpr (Flow::has_load) {
+            for (Index i = 0; i < n; ++i) {
+                const Scalar pressure = flow_.normal_load({configuration.shape.r[i], configuration.shape.z[i]});
+                load[i] = pressure * surface.normal_r[i];
+                load[n + i] = pressure * surface.normal_z[i];
+            }
+        }
+        return load;
     }
 
     /// Undisturbed velocity on the axis at the centroid.
@@ -191,20 +229,6 @@ class Scene {
             }
         }
         return largest;
-    }
-
-    /// Gravity's load is taken relative to the centroid: the rest is a uniform pressure.
-    Vector<Scalar> normal_load(const Configuration<Scalar>& configuration, const Surface& surface) const {
-        const Index n = configuration.shape.nodes();
-        Vector<Scalar> load = Vector<Scalar>::Zero(2 * n);
-        if constexpr (Flow::has_load) {
-            for (Index i = 0; i < n; ++i) {
-                const Scalar pressure = flow_.normal_load({configuration.shape.r[i], configuration.shape.z[i]});
-                load[i] = pressure * surface.normal_r[i];
-                load[n + i] = pressure * surface.normal_z[i];
-            }
-        }
-        return load;
     }
 
     Kernel kernel_;

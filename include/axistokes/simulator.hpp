@@ -15,7 +15,8 @@ namespace axistokes {
 
 /// TimeIntegratorFor<Scene>: `step(scene, configuration, dt)` evaluates the scene once or more and returns the
 /// displaced meridian, relative to the moved centroid, the centroid's displacement and the instant the motion started
-/// from.
+/// from. The result may have a member `error`, an estimate of the step's error in R0: the automatic step then follows
+/// it.
 template <class T, class SceneType>
 concept TimeIntegratorFor = requires(const T& integrator, SceneType& scene,
                                      const Configuration<typename SceneType::Scalar>& start,
@@ -47,6 +48,7 @@ struct StepRecord {
     S residual{};        // largest normal velocity relative to the centroid, over the velocity scale
     S film_thickness_min = std::numeric_limits<S>::infinity();  // distance to the wall
     S film_thickness_mean = std::numeric_limits<S>::infinity();
+    S step_error{};      // estimated, in R0; integrators with an estimate only
     S pressure_drop{};   // added by the particle, in kappa/R0^3; 0 without walls
     Index rejected = 0;  // attempts with larger steps before this one
     bool redistributed = false;
@@ -62,11 +64,14 @@ struct SimulationParams {
     S first_time_step = S(1e-3);
     S largest_time_step = S(1);
     S smallest_time_step = S(1e-9);
-    /// Largest normal displacement in a step, in R0.
+    /// Error allowed in a step, in R0, for integrators that estimate it.
+    S step_tolerance = S(1e-4);
+    /// Largest normal displacement in a step, in R0, for the other ones.
     S largest_displacement = S(0.02);
-    /// Largest automatic step times the shear rate of the undisturbed flow, which is explicit in the position.
+    /// Largest automatic step times the shear rate, of the undisturbed flow or half of that across the film: both are
+    /// explicit in the position. For integrators without an estimate.
     S largest_strain = S(0.5);
-    /// Growth of the automatic step from one step to the next.
+    /// Growth of the automatic step from one step to the next, likewise.
     S growth = S(1.3);
     Index most_steps = 20000;
     S longest_time = std::numeric_limits<S>::max();
@@ -85,6 +90,7 @@ void validate(const SimulationParams<S>& p) {
             "at least the smallest time step");
     require(p.largest_time_step >= p.first_time_step, "largest time step", p.largest_time_step,
             "at least the first time step");
+    require(p.step_tolerance > S(0), "error allowed in a step", p.step_tolerance, "> 0");
     require(p.largest_displacement > S(0), "largest displacement", p.largest_displacement, "> 0");
     require(p.largest_strain > S(0), "largest strain", p.largest_strain, "> 0");
     require(p.growth > S(1), "growth of the time step", p.growth, "> 1");
@@ -166,7 +172,7 @@ class Simulator {
             if (params_.time_step) {
                 fail("time step " + text(dt_) + " is too large: " + cause);
             }
-            dt_ /= 2;
+            dt_ = retry_;
             ++rejected;
             if (dt_ < params_.smallest_time_step) {
                 fail("the time step fell below " + text(params_.smallest_time_step) + ": " + cause);
@@ -199,6 +205,20 @@ class Simulator {
     }
 
   private:
+    static constexpr bool estimates_error =
+        requires(Integrator & integrator, SceneType& scene, const Configuration<Scalar>& start, Scalar dt) {
+        { integrator.step(scene, start, dt).error } -> std::convertible_to<Scalar>;
+    };
+
+    /// From a step to the longest one that should meet the tolerance: the estimate, the error of the order below, grows
+    /// like dt^order.
+    Scalar step_factor(const Scalar& error) const {
+        using std::pow;
+        const Scalar wanted = pow(params_.step_tolerance / error, Scalar(1) / Scalar(Integrator::order));
+        // NaN and infinite errors end up at the lower bound.
+        return wanted > Scalar(0.2) ? std::min(Scalar(Scalar(0.9) * wanted), Scalar(3)) : Scalar(0.2);
+    }
+
     struct Attempt {
         Configuration<Scalar> configuration;
         Record record;
@@ -218,7 +238,7 @@ class Simulator {
     }
 
     std::optional<Attempt> try_step(std::string& cause) {
-        using std::abs;
+        retry_ = dt_ / 2;
         auto step = [&] {
             try {
                 return std::optional(integrator_.step(scene_, configuration_, dt_));
@@ -234,6 +254,14 @@ class Simulator {
         Record& record = attempt.record;
         record.residual = step->instant.deformation_rate / std::max(Scalar(1), scene_.velocity_scale());
         record.velocity = step->instant.velocity;
+        if constexpr (estimates_error) {
+            record.step_error = step->error;
+            if (!params_.time_step && !(step->error <= params_.step_tolerance)) {
+                cause = "the step's error is " + text(step->error) + " R0";
+                retry_ = dt_ * std::min(Scalar(0.5), step_factor(step->error));
+                return std::nullopt;
+            }
+        }
         Configuration<Scalar>& next = attempt.configuration;
         next.position = configuration_.position + step->displacement;
         next.shape = std::move(step->shape);
@@ -243,7 +271,7 @@ class Simulator {
             attempt.motion.tail(next.shape.nodes()).array() -= record.velocity;
             next.tension = std::move(step->instant.solution.tension);
             const Scalar displacement = step->instant.deformation_rate * dt_;
-            if (!params_.time_step && !(displacement <= 2 * params_.largest_displacement)) {
+            if (!estimates_error && !params_.time_step && !(displacement <= 2 * params_.largest_displacement)) {
                 cause = "the membrane would move by " + text(displacement) + " R0";
                 return std::nullopt;
             }
@@ -274,12 +302,16 @@ class Simulator {
         const Measures<Scalar> raw = discretization.measures(shape);
         record.area_error = raw.area / area_ - 1;
         record.volume_error = raw.volume / volume_ - 1;
-        if (!discretization.restore(shape, area_, volume_)) {
+        bool restored = discretization.restore(shape, area_, volume_);
+        record.redistributed = discretization.redistribute(shape);
+        if (record.redistributed) {
+            restored = restored && discretization.restore(shape, area_, volume_);
+        }
+        if (!restored) {
             cause = "area and volume drifted by " + text(record.area_error) + " and " + text(record.volume_error) +
                     " and could not be restored";
             return false;
         }
-        record.redistributed = discretization.redistribute(shape);
         return usable(shape, cause);
     }
 
@@ -332,6 +364,7 @@ class Simulator {
     }
 
     void accept(Attempt attempt) {
+        using std::abs;
         const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.velocity_scale());
         const bool accelerating = !history_.empty() && attempt.record.residual > history_.back().residual;
         // A step that is too long overshoots: the next one goes back. On moved nodes velocities cannot be compared.
@@ -342,7 +375,13 @@ class Simulator {
         configuration_ = std::move(attempt.configuration);
         film_ = attempt.record.film_thickness_min;
         history_.push_back(attempt.record);
-        if (!params_.time_step) {
+        if (params_.time_step) {
+            return;
+        }
+        if constexpr (estimates_error) {
+            dt_ *= attempt.record.rejected > 0 ? std::min(Scalar(1), step_factor(attempt.record.step_error))
+                                               : step_factor(attempt.record.step_error);
+        } else {
             if (reversed) {
                 dt_ /= 2;
             } else if (!accelerating || rate * dt_ < params_.largest_displacement / 10) {
@@ -351,11 +390,12 @@ class Simulator {
             if (rate * dt_ > params_.largest_displacement) {
                 dt_ = params_.largest_displacement / rate;
             }
-            if (attempt.shear_rate * dt_ > params_.largest_strain) {
-                dt_ = params_.largest_strain / attempt.shear_rate;
+            const Scalar shear = std::max(attempt.shear_rate, Scalar(abs(history_.back().velocity) / (2 * film_)));
+            if (shear * dt_ > params_.largest_strain) {
+                dt_ = params_.largest_strain / shear;
             }
-            dt_ = std::min(dt_, params_.largest_time_step);
         }
+        dt_ = std::min(dt_, params_.largest_time_step);
     }
 
     Params params_;
@@ -368,6 +408,7 @@ class Simulator {
     Scalar volume_{};
     Scalar time_{};
     Scalar dt_{};
+    Scalar retry_{};  // the step to try when dt_ fails
     Scalar film_{};
 };
 

@@ -47,6 +47,12 @@ struct Wall {
     template <class Discretization, class SomeKernel>
     void confine(const Discretization&, const SomeKernel&, const Meridian<double>&, Matrix<double>&, Vector<double>&) {}
     double radius(double) const { return 2; }
+    template <class Surface>
+    double pressure_drop(const Surface&, const Vector<double>&) const {
+        return 0;
+    }
+    double velocity_scale() const { return 0; }
+    double centreline_velocity(double) const { return 0; }
 };
 
 struct Integrator {

@@ -171,10 +171,12 @@ class LinearElements : public SplineGeometry<S> {
         RegularQuadrature<S> result;
         result.points = {Eigen::Map<const Vector<S>>(points.r.data(), points.size()),
                          Eigen::Map<const Vector<S>>(points.z.data(), points.size())};
+        result.panel.resize(points.size());
         std::vector<Eigen::Triplet<S>> entries;
         const S scale = S(1) / (8 * detail::pi_value<S>());
         for (std::size_t q = 0; q < points.r.size(); ++q) {
             const auto lower = static_cast<int>(points.element[q]);
+            result.panel[static_cast<Index>(q)] = (m.z[lower] + m.z[lower + 1]) / 2;
             entries.emplace_back(static_cast<int>(q), lower, scale * points.lower[q]);
             entries.emplace_back(static_cast<int>(q), lower + 1, scale * points.upper[q]);
         }

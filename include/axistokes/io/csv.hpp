@@ -71,7 +71,8 @@ std::vector<Column<S>> shape_columns(const Configuration<S>& configuration, cons
     return columns;
 }
 
-/// One row a time step, in the order and with the meaning of StepRecord; film and pressure drop with walls only.
+/// One row a time step, in the order and with the meaning of StepRecord; the columns of a
+/// confined scene only if there is a wall.
 template <class S>
 std::vector<Column<S>> history_columns(const std::vector<StepRecord<S>>& history) {
     std::vector<Column<S>> columns;
@@ -98,8 +99,7 @@ std::vector<Column<S>> history_columns(const std::vector<StepRecord<S>>& history
     add("volume_error", &Record::volume_error);
     add("bending_energy", &Record::bending_energy);
     add("residual", &Record::residual);
-    using std::isfinite;
-    if (!history.empty() && isfinite(history.front().film_thickness_min)) {
+    if (!history.empty() && std::isfinite(static_cast<double>(history.back().film_thickness_min))) {
         add("film_thickness_min", &Record::film_thickness_min);
         add("film_thickness_mean", &Record::film_thickness_mean);
         add("pressure_drop", &Record::pressure_drop);

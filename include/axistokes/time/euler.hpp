@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the two first-order integrators share.
+// What the integrators built on Euler's step share.
 #pragma once
 
 #include "../scene.hpp"
@@ -16,18 +16,25 @@ struct Step {
 
 namespace detail {
 
+/// x += dt (u - U e_z), z_c += dt U.
+template <class S, class InstantType>
+void euler_move(Configuration<S>& now, const InstantType& instant, const S& dt) {
+    const Index n = now.shape.nodes();
+    const Vector<S>& u = instant.solution.velocity;
+    now.shape.r += dt * u.head(n);
+    now.shape.z += dt * (u.tail(n).array() - instant.velocity).matrix();
+    now.shape.r[0] = now.shape.r[n - 1] = 0;
+    now.position += dt * instant.velocity;
+}
+
 template <class S, class SceneType>
 Step<S, typename SceneType::InstantType> euler_step(SceneType& scene, const Configuration<S>& start, const S& dt,
                                                     const S& implicit_time) {
-    const Index n = start.shape.nodes();
     auto instant = scene.evaluate(start, implicit_time);
-    const Vector<S>& u = instant.solution.velocity;
-    Meridian<S> shape = start.shape;
-    shape.r += dt * u.head(n);
-    shape.z += dt * (u.tail(n).array() - instant.velocity).matrix();
-    shape.r[0] = shape.r[n - 1] = 0;
+    Configuration<S> end = start;
+    euler_move(end, instant, dt);
     const S displacement = dt * instant.velocity;
-    return {std::move(shape), displacement, std::move(instant)};
+    return {std::move(end.shape), displacement, std::move(instant)};
 }
 
 }  // namespace detail

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Second- and third-order semi-implicit steps by extrapolation (a policy for the time integrator;
+// docs/time_stepping.md).
+//
+// A step H is done with 1, 2, ..., Order semi-implicit Euler steps H/j. Their results T(j, 1) have an expansion in the
+// powers of H/j, of which Aitken-Neville's table
+//   T(j, k+1) = T(j, k) + [T(j, k) - T(j-1, k)] / [j/(j-k) - 1]
+// removes one per column (Deuflhard 1985; Hairer & Wanner, Solving ODEs II, section IV.9). The method is one-step: the
+// nodes may be redistributed between two steps. All the rows start from one geometry, which is evaluated once.
+#pragma once
+
+#include "euler.hpp"
+
+#include <array>
+#include <string>
+
+namespace axistokes {
+
+/// As Step, with an estimate of the step's error: the largest normal distance (in R0) between the result and the one of
+/// the order below.
+template <class S, class InstantType>
+struct EstimatedStep : Step<S, InstantType> {
+    S error{};
+};
+
+template <int Order>
+requires(Order >= 2) class ExtrapolatedEuler {
+  public:
+    static constexpr int order = Order;
+
+    template <class S, class SceneType>
+    auto step(SceneType& scene, const Configuration<S>& start, const S& dt) const {
+        const Measures<S> kept = scene.discretization().measures(start.shape);
+        const typename SceneType::Frozen frozen = scene.freeze(start);
+        std::array<Vector<S>, Order> row;  // T(j, 1), ..., T(j, j); a result is r, z and the displacement, stacked
+        std::array<Vector<S>, Order> previous;
+        EstimatedStep<S, typename SceneType::InstantType> result;
+        for (int j = 1; j <= Order; ++j) {
+            std::swap(row, previous);
+            result.instant = scene.evaluate(frozen, start, dt / S(j));
+            row[0] = steps(scene, start, result.instant, kept, j, S(dt / S(j)));
+            for (int k = 1; k < j; ++k) {
+                const auto from = static_cast<std::size_t>(k - 1);
+                row[from + 1] = row[from] + (row[from] - previous[from]) * (S(j - k) / S(k));
+            }
+        }
+        const Index n = start.shape.nodes();
+        const Vector<S>& best = row[Order - 1];
+        result.shape = {best.head(n), best.segment(n, n)};
+        result.displacement = best[2 * n];
+        const Vector<S> difference = best - row[Order - 2];
+        const auto& surface = result.instant.surface;
+        result.error = (surface.normal_r.cwiseProduct(difference.head(n)) +
+                        surface.normal_z.cwiseProduct(difference.segment(n, n)))
+                           .cwiseAbs()
+                           .maxCoeff();
+        return result;
+    }
+
+  private:
+    /// `count` Euler steps, the first of which is known. Each ends with its area and volume restored: what is
+    /// extrapolated is then the motion on the surface of constant area and volume, as the discretisation measures them,
+    /// and the correction that ends the whole step is as small as the step's error. The tension that stabilises a step
+    /// stays that of `now`: one that changed from step to step would put terms (H/j)^3 of its own into the table.
+    template <class S, class SceneType, class InstantType>
+    static Vector<S> steps(SceneType& scene, Configuration<S> now, const InstantType& first, const Measures<S>& kept,
+                           int count, const S& dt) {
+        const S origin = now.position;
+        detail::euler_move(now, first, dt);
+        restore(scene, now, kept);
+        for (int i = 1; i < count; ++i) {
+            const InstantType next = scene.evaluate(now, dt);
+            detail::euler_move(now, next, dt);
+            restore(scene, now, kept);
+        }
+        const Index n = now.shape.nodes();
+        Vector<S> result(2 * n + 1);
+        result << now.shape.r, now.shape.z, now.position - origin;
+        return result;
+    }
+
+    template <class S, class SceneType>
+    static void restore(SceneType& scene, Configuration<S>& now, const Measures<S>& kept) {
+        if constexpr (SceneType::deformable) {
+            const Index n = now.shape.nodes();
+            if (!now.shape.r.allFinite() || !now.shape.z.allFinite() ||
+                !(now.shape.r.segment(1, n - 2).minCoeff() > S(0))) {
+                throw SimulationFailure("extrapolated step: a node crossed the axis");
+            }
+            if (!scene.discretization().restore(now.shape, kept.area, kept.volume)) {
+                throw SimulationFailure("extrapolated step: area and volume could not be restored");
+            }
+        }
+    }
+};
+
+/// Order 2: two evaluations of the geometry and three solutions a step.
+using SecondOrder = ExtrapolatedEuler<2>;
+/// Order 3: four evaluations of the geometry and six solutions a step.
+using ThirdOrder = ExtrapolatedEuler<3>;
+
+}  // namespace axistokes
