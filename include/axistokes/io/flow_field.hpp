@@ -78,8 +78,6 @@ Index node_at(const Meridian<S>& meridian, const Point<S>& x) {
 template <class SceneType, class S, class Surface>
 FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configuration,
                         const Instant<S, Surface>& instant, FlowGrid<S> grid = {}) {
-    static_assert(!std::remove_cvref_t<decltype(scene.wall())>::present,
-                  "flow_field knows no meshed walls: use WallMesh::field");
     const auto& kernel = scene.kernel();
     if constexpr (requires { kernel.tube_radius(); }) {
         grid.radius = kernel.tube_radius();

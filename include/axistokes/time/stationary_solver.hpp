@@ -168,7 +168,7 @@ requires(SceneType::deformable) class StationarySolver {
         point.frozen = scene_.freeze(point.configuration);
         point.instant = scene_.evaluate(point.frozen, point.configuration, Scalar(0));
         point.velocity = detail::relative_normal_velocity(point.instant);
-        point.residual = point.instant.deformation_rate / std::max(Scalar(1), scene_.flow().velocity_scale());
+        point.residual = point.instant.deformation_rate / std::max(Scalar(1), scene_.velocity_scale());
     }
 
     Vector<Scalar> disturbed(const State& state, const Vector<Scalar>& displacement) {
