@@ -49,10 +49,6 @@ class LinearElements : public SplineGeometry<S> {
 
     Surface surface(const Meridian<S>& meridian) const { return linear_surface(meridian); }
 
-    /// Nodes of the rule for a target whose distances to the two ends of an element sum to `distance_sum`, or 0 if the
-    /// element must be halved.
-    Index order(const S& distance_sum, const S& length) const { return rules_.order(distance_sum, length); }
-
     /// u = G f for targets at the nodes: G is 2n x 2n, f and u are stacked [r; z]; f is a force density (kappa/R0^3), u
     /// a velocity (kappa/(eta R0^2)). Includes the factor 1/(8 pi).
     template <class Kernel>
