@@ -196,9 +196,7 @@ class TubeKernel : public FreeSpaceKernel<S> {
 
     /// Free space plus correction: M_T(target, source).
     KernelBlock<S> total(const Point<S>& target, const Point<S>& source) const {
-        const KernelBlock<S> a = this->singular(target, source);
-        const KernelBlock<S> b = correction(target, source);
-        return {a.rr + b.rr, a.rz + b.rz, a.zr + b.zr, a.zz + b.zz};
+        return this->singular(target, source) + correction(target, source);
     }
 
     /// out += M_c integrated over the sources, 2 targets x 2 nodes, stacked [r; z]. `quadrature(distance)` is a
@@ -222,10 +220,7 @@ class TubeKernel : public FreeSpaceKernel<S> {
         return -2 * sum / area;
     }
 
-  private:
-    using Assembly = detail::TubeAssembly<S, TubeKernel>;
-    friend Assembly;
-
+  protected:
     S gap(const S& r, const char* what) const {
         detail::require(r >= S(0) && r <= tube_radius_, what, r, "in [0, tube radius]");
         return tube_radius_ - r;
@@ -233,6 +228,10 @@ class TubeKernel : public FreeSpaceKernel<S> {
     static void require_clear(const S& gap) {
         detail::require(gap > S(0), "sum of the distances of target and source to the wall", gap, "> 0");
     }
+
+  private:
+    using Assembly = detail::TubeAssembly<S, TubeKernel>;
+    friend Assembly;
 
     /// Adds Re or Im of u s exp(i zeta |zh|).
     template <class C>
