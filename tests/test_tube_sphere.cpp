@@ -173,22 +173,6 @@ void print_tables() {
     }
 }
 
-void print_convergence() {
-    std::cout
-        << "\nElements: relative errors of K, of U/u_max and of the floating sphere's pressure drop\nR0/Rc      N\n";
-    for (const double x : {0.1, 0.5, 0.9}) {
-        const Reference s(x);
-        const Poiseuille<double> flow(1, 1 / x);
-        for (const Index n : {32, 64, 128, 256}) {
-            const auto floating = evaluate(x, n, flow);
-            std::cout << std::fixed << std::setprecision(1) << x << std::setw(9) << n << std::scientific
-                      << std::setw(12) << -1 / evaluate(x, n, unit_weight).velocity / s.drag_factor() - 1
-                      << std::setw(12) << floating.velocity / s.velocity_ratio() - 1 << std::setw(12)
-                      << floating.pressure_drop / s.pressure_drop(s.floating()) - 1 << '\n';
-        }
-    }
-}
-
 }  // namespace
 
 TEST_CASE("the reference has converged", "[sphere]") {
@@ -351,5 +335,4 @@ TEST_CASE("the pressure drop of a sphere in a tube is the reference's", "[sphere
 
 TEST_CASE("report: a rigid sphere on the axis of a tube", "[.report]") {
     print_tables<long double>();
-    print_convergence();
 }
