@@ -16,7 +16,7 @@ import numpy as np
 from plot_run import cross_section, plt, read_run, read_table
 
 WALL = "0.72"
-BLUE, ORANGE, GREEN, BROWN = "#1f5fa8", "#d08a00", "#2b7a4b", "#b5541c"
+BLUE, ORANGE, BROWN = "#1f5fa8", "#d08a00", "#b5541c"
 # Drag factors of tests/sphere_in_tube_reference.hpp.
 DRAG = {"0.1": 1.263213905, "0.3": 2.370094890, "0.5": 5.947374246, "0.7": 24.67598385, "0.9": 469.2243905,
         "1/1.1": 601.5115068}
@@ -144,8 +144,7 @@ def sphere_drag(g):
     n = np.array(counts, dtype=float)
     axes[0].loglog(n, 3 / n**2, "k:", lw=1, label=r"$N^{-2}$")
     axes[0].loglog(n, 300 / n**3, "k--", lw=1, label=r"$N^{-3}$")
-    axes[1].loglog(n[1:], 300 / n[1:]**3, "k--", lw=1)
-    axes[1].loglog(n[1:], 3000 / n[1:]**4, "k-.", lw=1, label=r"$N^{-4}$")
+    axes[1].loglog(n[1:], 300 / n[1:]**3, "k--", lw=1, label=r"$N^{-3}$")
     axes[0].set_title("drag factor of a sphere: relative error")
     axes[1].set_title("extrapolated from N/2 and N: (4 K(N) - K(N/2))/3")
     for a in axes:
@@ -161,31 +160,31 @@ def sphere_drag(g):
 
 @figure
 def sphere_traction(g):
-    """f_z along the meridian of a dragged sphere of unit velocity."""
+    """Traction along the meridian of a dragged sphere, over its mean drag per area."""
     fig, axes = plt.subplots(1, 2, figsize=(9.5, 3.8), layout="constrained")
     labels = ["0.1", "0.3", "0.5", "0.7", "0.9", "1/1.1"]
-    colors = plt.get_cmap("viridis")(np.linspace(0, 0.9, len(labels)))
     rows = []
-    for label, color in zip(labels, colors):
+    for label, color in zip(labels, plt.get_cmap("viridis")(np.linspace(0, 0.9, len(labels)))):
         name = f"drag_{label.replace('/', '_')}_256"
         summary, _, _ = g.run(name, "sphere_in_tube", confinement=label, elements=256)
-        t = g.table(name)
-        # Upwind pole at -pi/2: the sphere settles along -z.
-        angle, scale = t["angle"], -summary["velocity"]
-        mean = 1.5 * summary["drag_factor"]  # of f_z, by the force balance
-        for a, name_f in zip(axes, ("f_r", "f_z")):
-            a.plot(angle / np.pi, t[name_f] / scale, color=color, label=f"$R_0/R_c$ = {label}")
-        rise = np.max(np.abs(t["f_z"] - t["f_z"][::-1])) / np.max(np.abs(t["f_z"]))
-        rows.append([label, float(np.max(t["f_z"]) / scale / mean), f"{rise:.1e}"])
-    for a, name_f in zip(axes, ("$f_r$", "$f_z$")):
-        a.set_yscale("symlog", linthresh=2)
-        a.set_xticks([-0.5, -0.25, 0, 0.25, 0.5], [r"$-\pi/2$", r"$-\pi/4$", "0", r"$\pi/4$", r"$\pi/2$"])
+        table = g.table(name)
+        # The sphere settles along -z, and the fluid's traction on it is the opposite of its own on the fluid.
+        mean = 1.5 * summary["drag_factor"] * -summary["velocity"]
+        traction = {k: -table[k] / mean for k in ("f_r", "f_z")}
+        for a, component in zip(axes, traction):
+            a.plot(table["angle"], traction[component], color=color, label=f"$R_0/R_c$ = {label}")
+        f_z = traction["f_z"]
+        rows.append([label, 1.5 * summary["drag_factor"], float(np.max(f_z)), float(np.min(f_z)),
+                     f"{np.max(np.abs(f_z - f_z[::-1])):.0e}"])
+    for a, component in zip(axes, ("$f_r$", "$f_z$")):
+        a.set_xticks(np.pi * np.linspace(-0.5, 0.5, 5), [r"$-\pi/2$", r"$-\pi/4$", "0", r"$\pi/4$", r"$\pi/2$"])
         a.set_xlabel("angle from the equator (upwind to downwind)")
-        a.set_ylabel(name_f + r"  ($\eta U/R_0$)")
+        a.set_ylabel(component + " over the mean of $f_z$")
+    axes[1].set_ylim(0, None)
     axes[1].legend(frameon=False, fontsize=7)
     fig.suptitle("traction on a sphere dragged along a tube, up to a multiple of the normal", fontsize=10)
     g.save(fig, "sphere_traction")
-    print_table(["R0/Rc", "largest over mean f_z", "asymmetry of f_z"], rows)
+    print_table(["R0/Rc", "mean f_z (eta U/R0)", "largest/mean", "least/mean", "fore-aft asymmetry"], rows)
 
 
 def draw_forces(axes, runs):
@@ -205,7 +204,7 @@ def refinement(g, name, title, counts, **options):
     runs = [(n, *g.run(f"{name}_{n}", "poiseuille_vesicle", elements=n, **options)) for n in counts]
     radius = runs[0][1]["tube_radius"]
     reach = max(s["length"] for _, s, _, _ in runs) / 2 + 0.35
-    fig, axes = plt.subplots(2, 1, figsize=(8, 6.6), layout="constrained", sharex=True)
+    fig, axes = plt.subplots(2, 1, figsize=(8, 6.6), layout="constrained")
     for (n, _, shape, _), color, style in zip(runs, (BROWN, BLUE, "black"), ("-", "--", ":")):
         x, y = sideways(shape)
         axes[0].plot(x, y, color=color, ls=style, label=f"N = {n}")
@@ -214,6 +213,7 @@ def refinement(g, name, title, counts, **options):
     axes[0].set_ylabel(r"$r/R_0$")
     axes[0].set_title(title)
     draw_forces(axes[1], [(f"N = {n}", shape) for n, _, shape, _ in runs])
+    axes[1].set_xlim(axes[0].get_xlim())
     g.save(fig, name)
     print_runs("N", [(n, s) for n, s, _, _ in runs])
     print_table(["N", "distance to the shape at the largest N"],
@@ -230,7 +230,7 @@ def vesicle_in_tube(g):
 @figure
 def narrow_tube(g):
     """A vesicle like a red blood cell in a very narrow pore."""
-    refinement(g, "narrow_tube", r"$\Delta$ = 4.8, $R_c/R_0$ = 0.55, Ca = 100", (100, 130, 200), excess_area=4.8,
+    refinement(g, "narrow_tube", r"$\Delta$ = 4.8, $R_c/R_0$ = 0.55, Ca = 100", (130, 200, 260), excess_area=4.8,
                confinement="1/0.55", capillary_number=100)
 
 
@@ -250,43 +250,50 @@ def draw_frames(axes, frames, radius, spacing):
 
 @figure
 def initial_shapes(g):
-    """Prolate and oblate starts end in one shape at Ca = 100, in two at Ca = 1."""
-    fig, axes = plt.subplots(2, 1, figsize=(8.5, 7.6), layout="constrained")
-    rows = []
+    """Prolate and oblate starts end in one shape."""
+    fig, axes = plt.subplots(2, 1, figsize=(8.5, 6.4), layout="constrained")
     for a, kind in zip(axes, ("prolate", "oblate")):
-        options = dict(excess_area=0.2, confinement="0.5", capillary_number=100, elements=64, initial=kind)
-        g.run(f"start_{kind}", "poiseuille_vesicle", frame_times="0,0.01,0.03,0.13", time=0.14, **options)
+        g.run(f"start_{kind}", "poiseuille_vesicle", excess_area=0.2, confinement="0.5", capillary_number=100,
+              elements=64, initial=kind, frame_times="0,0.01,0.03,0.13", dt=0.001, time=0.13)
         draw_frames(a, g.table(f"start_{kind}", "frames.csv"), 2, 2.7)
-        a.set_title(kind + " start")
+        a.set_title(f"{kind} start, $\\Delta$ = 0.2, $R_c/R_0$ = 2, Ca = 100")
         a.set_ylabel(r"$r/R_0$")
+        a.set_xticks([])
     g.save(fig, "initial_shapes")
-    for label, options in ((r"D = 0.2, R0/Rc = 0.5, Ca = 100", dict(excess_area=0.2, confinement="0.5")),
-                           (r"D = 0.9, R0/Rc = 0.3, Ca = 100", dict(excess_area=0.9, confinement="0.3"))):
-        rows += both_starts(g, label, capillary_number=100, **options)[0]
-    one, shapes = both_starts(g, "D = 0.9, R0/Rc = 0.3, Ca = 1", capillary_number=1, excess_area=0.9, confinement="0.3")
-    rows += one
-    print_table(["case", "U, prolate start", "U, oblate start", "steps", "seconds", "distance of the shapes"], rows)
-    fig, axes = plt.subplots(1, 2, figsize=(8.5, 4.6), layout="constrained", sharey=True)
-    for a, shape, name in zip(axes, shapes, ("prolate start", "oblate start")):
+    print_starts([both_starts(g, "0.2", "0.5", 100), both_starts(g, "0.9", "0.3", 100)])
+
+
+@figure
+def two_branches(g):
+    """At small capillary numbers the two starts end in different shapes, a bullet and a parachute."""
+    starts = {ca: both_starts(g, "0.9", "0.3", ca) for ca in (1, 3, 10, 20, 40, 100)}
+    fig, axes = plt.subplots(1, 4, figsize=(11, 4), layout="constrained", sharey=True)
+    drawn = [(ca, kind, shape) for ca in (1, 10) for kind, (_, shape, _) in zip(("prolate", "oblate"), starts[ca][1])]
+    for a, (ca, kind, shape) in zip(axes, drawn):
         x, y = sideways(shape)
         a.fill(x, y, color="#fbe9d9")
         a.plot(x, y, color=BROWN)
-        draw_tube(a, 1 / 0.3, (-3.0, 2.4), 0.8)
-        a.set_title(name)
-    fig.suptitle(r"two stationary shapes at $\Delta$ = 0.9, $R_0/R_c$ = 0.3, Ca = 1", fontsize=10)
+        draw_tube(a, 1 / 0.3, (-2.9, 1.9), 0.8)
+        a.set_title(f"Ca = {ca}, {kind} start")
+    axes[0].set_ylabel(r"$r/R_0$")
     g.save(fig, "two_branches")
+    print_starts(starts.values())
 
 
-def both_starts(g, label, **options):
-    runs = []
-    for kind in ("prolate", "oblate"):
-        name = "start_{}_{}_{}_{}".format(kind, options["excess_area"], options["confinement"],
-                                          options["capillary_number"])
-        runs.append(g.run(name, "poiseuille_vesicle", elements=64, initial=kind, tolerance=1e-6, **options))
-    (a, one, _), (b, two, _) = runs
-    row = [label, a["velocity"], b["velocity"], f"{a['steps']}, {b['steps']}",
-           f"{a['wall_seconds']:.2g}, {b['wall_seconds']:.2g}", f"{distance(one, two):.1e}"]
-    return [row], (one, two)
+def both_starts(g, area, confinement, ca):
+    """A label and the runs from the prolate and from the oblate spheroid."""
+    runs = [g.run(f"start_{kind}_{area}_{confinement}_{ca}", "poiseuille_vesicle", excess_area=area,
+                  confinement=confinement, capillary_number=ca, elements=64, initial=kind, tolerance=1e-8)
+            for kind in ("prolate", "oblate")]
+    return f"D = {area}, R0/Rc = {confinement}, Ca = {ca}", runs
+
+
+def print_starts(starts):
+    rows = []
+    for label, ((a, one, _), (b, two, _)) in starts:
+        pairs = [f"{a[k]:.6g}, {b[k]:.6g}" for k in ("velocity", "length", "curvature_bottom", "steps")]
+        rows.append([label, *pairs, f"{a['wall_seconds']:.2g}, {b['wall_seconds']:.2g}", f"{distance(one, two):.1e}"])
+    print_table(["from prolate, oblate", "U", "length", "curvature of the rear", "steps", "seconds", "distance"], rows)
 
 
 @figure
@@ -296,7 +303,7 @@ def bounded_unbounded(g):
     fig, axes = plt.subplots(1, 4, figsize=(11, 3.4), layout="constrained", sharey=True)
     rows = []
     for a, ratio in zip(axes, ratios):
-        options = dict(excess_area=1.59, elements=80)
+        options = dict(excess_area=1.59, elements=80, tolerance=1e-7)
         tube, bounded, _ = g.run(f"bounded_{ratio}", "poiseuille_vesicle", confinement="1/" + ratio,
                                  capillary_number=100, **options)
         free, unbounded, _ = g.run(f"unbounded_{ratio}", "poiseuille_vesicle",
@@ -325,18 +332,19 @@ def bounded_unbounded(g):
 @figure
 def experiments(g):
     """Parameters of three experiments with giant vesicles."""
-    cases = ((0.45, "1.25", 10), (1.7, "1.5", 30), (2, "2.5", 60))
+    # The last one, from a prolate start, goes on oscillating.
+    cases = ((0.45, "1.25", 10, "prolate"), (1.7, "1.5", 30, "prolate"), (2, "2.5", 60, "oblate"))
     fig, axes = plt.subplots(1, 3, figsize=(11, 3.4), layout="constrained")
     labelled = []
-    for a, (area, ratio, ca) in zip(axes, cases):
+    for a, (area, ratio, ca, kind) in zip(axes, cases):
         summary, shape, _ = g.run(f"experiment_{area}", "poiseuille_vesicle", excess_area=area, confinement="1/" + ratio,
-                                  capillary_number=ca, elements=80)
+                                  capillary_number=ca, elements=80, initial=kind)
         x, y = sideways(shape)
         a.fill(x, y, color="#fbe9d9")
         a.plot(x, y, color=BROWN)
         draw_tube(a, float(ratio), (-2.9, 2.3), 0.6)
         a.set_title(rf"$\Delta$ = {area}, $R_c/R_0$ = {ratio}, Ca = {ca}")
-        labelled.append((f"D = {area}, Rc/R0 = {ratio}, Ca = {ca}", summary))
+        labelled.append((f"D = {area}, Rc/R0 = {ratio}, Ca = {ca}, {kind} start", summary))
     g.save(fig, "experiments")
     print_runs("case", labelled)
 
@@ -344,25 +352,21 @@ def experiments(g):
 @figure
 def settling_in_tube(g):
     """The tether of a settling vesicle shortens with confinement."""
-    cases = (("10", 160), ("5", 160), ("2", 100), ("1.15", 100))
-    fig, axes = plt.subplots(2, 2, figsize=(9.5, 5.2), layout="constrained", gridspec_kw={"width_ratios": (1, 1)})
+    fig, axes = plt.subplots(2, 2, figsize=(9.5, 5.2), layout="constrained")
     labelled = []
-    for a, (ratio, n) in zip(axes.flat, cases):
-        summary, shape, _ = g.run(f"settling_{ratio}", "settling_vesicle", excess_area=0.93, bond=216, elements=n,
-                                  confinement="1/" + ratio, **SETTLING.get(ratio, {}))
+    for a, ratio in zip(axes.flat, ("10", "5", "2", "1.15")):
+        for n in (80, 160):
+            summary, shape, _ = g.run(f"settling_{ratio}_{n}", "settling_vesicle", excess_area=0.93, bond=216,
+                                      elements=n, confinement="1/" + ratio)
+            labelled.append((f"{ratio}, N = {n}", summary))
         x, y = sideways(shape)
         a.fill(-x, y, color="#fbe9d9")
         a.plot(-x, y, color=BROWN)
         draw_tube(a, float(ratio), (-3.4, 2.6), gravity=True)
-        a.set_ylim(-1.5, 1.5)
-        a.set_title(rf"$R_c/R_0$ = {ratio}" + ("" if summary["stationary"] else f", at time {summary['time']:.3g}"))
-        labelled.append((f"{ratio}, N = {n}" + ("" if summary["stationary"] else ", still changing"), summary))
+        a.set_ylim(-1.4, 1.4)
+        a.set_title(rf"$R_c/R_0$ = {ratio}")
     g.save(fig, "settling_in_tube")
     print_runs("Rc/R0", labelled)
-
-
-# A tether still grows when its vesicle's residual is small.
-SETTLING = {}
 
 
 def main():
