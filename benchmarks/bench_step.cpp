@@ -54,7 +54,9 @@ BENCHMARK(surface_operators)->ArgsProduct({kElements})->Unit(benchmark::kMillise
 BENCHMARK_TEMPLATE(time_step, SemiImplicitEuler, DenseLU<double>)
     ->ArgsProduct({kElements})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_TEMPLATE(time_step, SemiImplicitEuler, Gmres<double>)->ArgsProduct({kElements})->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(time_step, SemiImplicitEuler, Gmres<double>)
+    ->ArgsProduct({kElements})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(time_step, SemiImplicitEuler, DenseQR<double>)
     ->ArgsProduct({kElements})
     ->Unit(benchmark::kMillisecond);

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "discretization/linear_elements.hpp"
+#include "discretization/spectral_meridian.hpp"
 #include "flow/background.hpp"
-#include "flow/poiseuille.hpp"
-#include "geometry/shapes.hpp"
+#include "geometry/tube_shapes.hpp"
+#include "io/csv.hpp"
+#include "io/vtk.hpp"
 #include "kernel/free_space.hpp"
 #include "kernel/tube.hpp"
+#include "kernel/tube_filon.hpp"
 #include "membrane/rigid_body.hpp"
 #include "membrane/vesicle.hpp"
 #include "simulator.hpp"
@@ -17,3 +20,6 @@
 #include "time/extrapolated_euler.hpp"
 #include "time/semi_implicit_euler.hpp"
 #include "time/stationary_solver.hpp"
+#include "wall/passage.hpp"
+#include "wall/points_profile.hpp"
+#include "wall/wall_mesh.hpp"

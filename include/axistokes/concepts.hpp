@@ -52,6 +52,7 @@ concept Background = requires(const B& background, Point<typename B::Scalar> poi
     { B::has_load } -> std::convertible_to<bool>;
     { background.velocity(point) } -> std::same_as<Point<typename B::Scalar>>;
     { background.normal_load(point) } -> std::convertible_to<typename B::Scalar>;
+    { background.velocity_scale() } -> std::convertible_to<typename B::Scalar>;
 };
 
 /// LinearSolver: `factorize(A)` prepares a square dense matrix, `solve(b)` returns x with A x = b. Both throw
@@ -94,15 +95,21 @@ concept ConfiningKernel = GreenKernel<K> && requires(const K& kernel) {
 
 /// WallFor<Kernel, Discretization>: a wall with unknown tractions of its own. `confine` eliminates them: it turns the
 /// particle's mobility and background velocity in the wall's absence into those in its presence, for a particle given
-/// in the laboratory frame. `radius(z)` is the wall's distance from the axis. A policy with present = false has
-/// neither.
+/// in the laboratory frame. `radius(z)` is the wall's distance from the axis, `pressure_drop(surface, force)` what a
+/// nodal force density on the particle confined last adds to the pressure drop along the channel, and
+/// `velocity_scale()` a typical velocity of the flow that the wall brings with it and `centreline_velocity(z)` that
+/// flow's on the axis (both 0 if the background is the only flow). A policy with present = false has none of these.
 template <class W, class Kernel, class Discretization>
-concept WallFor = !W::present ||
-                  requires(W & wall, const Discretization& discretization, const Kernel& kernel,
-                           const Meridian<typename Kernel::Scalar>& particle, Matrix<typename Kernel::Scalar>& mobility,
-                           Vector<typename Kernel::Scalar>& background, typename Kernel::Scalar z) {
+concept WallFor =
+    !W::present || requires(W & wall, const Discretization& discretization, const Kernel& kernel,
+                            const Meridian<typename Kernel::Scalar>& particle,
+                            Matrix<typename Kernel::Scalar>& mobility, Vector<typename Kernel::Scalar>& background,
+                            typename Kernel::Scalar z, const typename Discretization::Surface& surface) {
     { wall.confine(discretization, kernel, particle, mobility, background) } -> std::same_as<void>;
     { wall.radius(z) } -> std::convertible_to<typename Kernel::Scalar>;
+    { wall.pressure_drop(surface, background) } -> std::convertible_to<typename Kernel::Scalar>;
+    { wall.velocity_scale() } -> std::convertible_to<typename Kernel::Scalar>;
+    { wall.centreline_velocity(z) } -> std::convertible_to<typename Kernel::Scalar>;
 };
 
 /// MembraneFor<Surface>: turns a MobilityProblem into velocities and forces with a given linear solver. `deformable`

@@ -27,6 +27,10 @@ struct Instant {
     S velocity{};  // of the centroid, along z
     /// Largest normal velocity relative to the centroid's: 0 in a stationary state.
     S deformation_rate{};
+    /// Added by the particle to the pressure drop along the tube or channel, in kappa/R0^3; 0 without walls.
+    S pressure_drop{};
+    /// Largest difference of the undisturbed flow along an element over its length.
+    S shear_rate{};
 };
 
 /// How close the membrane comes to the wall, in R0.
@@ -71,6 +75,7 @@ class Scene {
         Matrix<Scalar> mobility;
         Vector<Scalar> background;
         Vector<Scalar> load;
+        Scalar shear_rate{};
     };
 
     Frozen freeze(const Configuration<Scalar>& configuration) {
@@ -83,6 +88,7 @@ class Scene {
             particle.z.array() += configuration.position;
             wall_.confine(discretization_, kernel_, particle, frozen.mobility, frozen.background);
         }
+        frozen.shear_rate = shear_rate(configuration.shape, frozen.background);
         frozen.load = normal_load(configuration, frozen.surface);
         return frozen;
     }
@@ -98,6 +104,7 @@ class Scene {
                          const Scalar& implicit_time) {
         InstantType instant;
         instant.surface = frozen.surface;
+        instant.shear_rate = frozen.shear_rate;
         const Surface& surface = frozen.surface;
         const Index n = surface.size();
         instant.solution =
@@ -111,7 +118,22 @@ class Scene {
         const Vector<Scalar> moment = surface.weight.cwiseProduct(configuration.shape.z);
         instant.velocity = moment.dot(normal_velocity) / moment.dot(surface.normal_z);
         instant.deformation_rate = (normal_velocity - instant.velocity * surface.normal_z).cwiseAbs().maxCoeff();
+        if constexpr (ConfiningKernel<Kernel>) {
+            instant.pressure_drop = kernel_.pressure_drop(surface, instant.solution.force);
+        }
+        if constexpr (Wall::present) {
+            instant.pressure_drop = wall_.pressure_drop(surface, instant.solution.force);
+        }
         return instant;
+    }
+
+    /// A typical velocity of what drives the scene.
+    Scalar velocity_scale() const {
+        if constexpr (Wall::present) {
+            return std::max<Scalar>(flow_.velocity_scale(), wall_.velocity_scale());
+        } else {
+            return flow_.velocity_scale();
+        }
     }
 
     /// Undisturbed velocity at the nodes, stacked.
@@ -145,11 +167,14 @@ class Scene {
 
     /// Undisturbed velocity on the axis at the centroid.
     Scalar centreline_velocity(const Scalar& position) const {
+        Scalar velocity = 0;
         if constexpr (Flow::has_flow) {
-            return flow_.velocity({Scalar(0), position}).z;
-        } else {
-            return Scalar(0);
+            velocity += flow_.velocity({Scalar(0), position}).z;
         }
+        if constexpr (Wall::present) {
+            velocity += wall_.centreline_velocity(position);
+        }
+        return velocity;
     }
 
     /// Distance of the wall from the axis at z in the laboratory frame; infinite without a wall.
@@ -190,6 +215,22 @@ class Scene {
     }
 
   private:
+    static Scalar shear_rate(const Meridian<Scalar>& shape, const Vector<Scalar>& background) {
+        using std::sqrt;
+        Scalar largest = 0;
+        if constexpr (Flow::has_flow) {
+            const Index n = shape.nodes();
+            for (Index i = 0; i + 1 < n; ++i) {
+                const auto square = [](const Scalar& a, const Scalar& b) { return (a - b) * (a - b); };
+                const Scalar du =
+                    square(background[i + 1], background[i]) + square(background[n + i + 1], background[n + i]);
+                const Scalar dx = square(shape.r[i + 1], shape.r[i]) + square(shape.z[i + 1], shape.z[i]);
+                largest = std::max<Scalar>(largest, sqrt(du / dx));
+            }
+        }
+        return largest;
+    }
+
     Kernel kernel_;
     Discretization discretization_;
     Membrane membrane_;

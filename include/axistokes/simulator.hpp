@@ -49,7 +49,7 @@ struct StepRecord {
     S film_thickness_min = std::numeric_limits<S>::infinity();  // distance to the wall
     S film_thickness_mean = std::numeric_limits<S>::infinity();
     S step_error{};      // estimated, in R0; integrators with an estimate only
-    S pressure_drop{};   // added by the particle, in kappa/R0^3; in tubes only
+    S pressure_drop{};   // added by the particle, in kappa/R0^3; 0 without walls
     Index rejected = 0;  // attempts with larger steps before this one
     bool redistributed = false;
 };
@@ -68,7 +68,10 @@ struct SimulationParams {
     S step_tolerance = S(1e-4);
     /// Largest normal displacement in a step, in R0, for the other ones.
     S largest_displacement = S(0.02);
-    /// Growth of the automatic step from one step to the next, without an estimate of the error.
+    /// Largest automatic step times the shear rate, of the undisturbed flow or half of that across the film: both are
+    /// explicit in the position. For integrators without an estimate.
+    S largest_strain = S(0.5);
+    /// Growth of the automatic step from one step to the next, likewise.
     S growth = S(1.3);
     Index most_steps = 20000;
     S longest_time = std::numeric_limits<S>::max();
@@ -89,6 +92,7 @@ void validate(const SimulationParams<S>& p) {
             "at least the first time step");
     require(p.step_tolerance > S(0), "error allowed in a step", p.step_tolerance, "> 0");
     require(p.largest_displacement > S(0), "largest displacement", p.largest_displacement, "> 0");
+    require(p.largest_strain > S(0), "largest strain", p.largest_strain, "> 0");
     require(p.growth > S(1), "growth of the time step", p.growth, "> 1");
     require(p.most_steps >= 1, "number of steps", p.most_steps, "at least 1");
     require(p.longest_time > S(0), "longest time", p.longest_time, "> 0");
@@ -219,6 +223,7 @@ class Simulator {
         Configuration<Scalar> configuration;
         Record record;
         Vector<Scalar> motion;  // velocity relative to the centroid, stacked
+        Scalar shear_rate{};
     };
 
     static std::string text(const Scalar& value) {
@@ -247,7 +252,7 @@ class Simulator {
         }
         Attempt attempt;
         Record& record = attempt.record;
-        record.residual = step->instant.deformation_rate / std::max(Scalar(1), scene_.flow().velocity_scale());
+        record.residual = step->instant.deformation_rate / std::max(Scalar(1), scene_.velocity_scale());
         record.velocity = step->instant.velocity;
         if constexpr (estimates_error) {
             record.step_error = step->error;
@@ -262,6 +267,7 @@ class Simulator {
         next.shape = std::move(step->shape);
         if constexpr (Membrane::deformable) {
             attempt.motion = step->instant.solution.velocity;
+            attempt.shear_rate = step->instant.shear_rate;
             attempt.motion.tail(next.shape.nodes()).array() -= record.velocity;
             next.tension = std::move(step->instant.solution.tension);
             const Scalar displacement = step->instant.deformation_rate * dt_;
@@ -282,9 +288,7 @@ class Simulator {
                 return std::nullopt;
             }
         }
-        if constexpr (ConfiningKernel<Kernel>) {
-            record.pressure_drop = scene_.kernel().pressure_drop(step->instant.surface, step->instant.solution.force);
-        }
+        record.pressure_drop = step->instant.pressure_drop;
         return attempt;
     }
 
@@ -298,12 +302,16 @@ class Simulator {
         const Measures<Scalar> raw = discretization.measures(shape);
         record.area_error = raw.area / area_ - 1;
         record.volume_error = raw.volume / volume_ - 1;
-        if (!discretization.restore(shape, area_, volume_)) {
+        bool restored = discretization.restore(shape, area_, volume_);
+        record.redistributed = discretization.redistribute(shape);
+        if (record.redistributed) {
+            restored = restored && discretization.restore(shape, area_, volume_);
+        }
+        if (!restored) {
             cause = "area and volume drifted by " + text(record.area_error) + " and " + text(record.volume_error) +
                     " and could not be restored";
             return false;
         }
-        record.redistributed = discretization.redistribute(shape);
         return usable(shape, cause);
     }
 
@@ -356,10 +364,12 @@ class Simulator {
     }
 
     void accept(Attempt attempt) {
-        const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.flow().velocity_scale());
+        using std::abs;
+        const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.velocity_scale());
         const bool accelerating = !history_.empty() && attempt.record.residual > history_.back().residual;
-        // A step that is too long overshoots: the next one goes back.
-        const bool reversed = motion_.size() > 0 && attempt.motion.dot(motion_) < Scalar(0);
+        // A step that is too long overshoots: the next one goes back. On moved nodes velocities cannot be compared.
+        const bool reversed =
+            motion_.size() > 0 && !history_.back().redistributed && attempt.motion.dot(motion_) < Scalar(0);
         motion_ = std::move(attempt.motion);
         time_ = attempt.record.time;
         configuration_ = std::move(attempt.configuration);
@@ -379,6 +389,10 @@ class Simulator {
             }
             if (rate * dt_ > params_.largest_displacement) {
                 dt_ = params_.largest_displacement / rate;
+            }
+            const Scalar shear = std::max(attempt.shear_rate, Scalar(abs(history_.back().velocity) / (2 * film_)));
+            if (shear * dt_ > params_.largest_strain) {
+                dt_ = params_.largest_strain / shear;
             }
         }
         dt_ = std::min(dt_, params_.largest_time_step);

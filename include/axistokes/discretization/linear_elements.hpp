@@ -2,18 +2,14 @@
 // The paper's P1 boundary elements: straight elements, linear densities, and quadrature that knows the kernel's
 // singularity.
 //
-// Order of the rule. On the line through an element of length L the kernel's only singularity near the element is at
-// the target x0, seen in the complexified parameter: the kernel is analytic in the ellipse whose foci are the element's
-// ends and whose axis sum is rho = a + sqrt(a^2 - 1), a = (|x0 - x1| + |x0 - x2|)/L. Gauss-Legendre with n nodes errs
-// by O(rho^(-2n)) times the integrand's growth on the ellipse (Trefethen, Approximation Theory and Practice,
-// theorem 19.3), which is up to rho^2 for the ring's radius and the hat function, so n = 1 + log(1/tolerance) / (2 log
-// rho). If that exceeds the largest order the element is halved. When x0 is one of the ends, M = smooth +
-// log_coefficient log(m1), and on a straight element m1 = L^2 t^2 / ((r + r0)^2 + (z - z0)^2): a product rule takes log
-// t exactly, and the nearest singularity is the mirror point (-r0, z0).
+// Order of the rule: quadrature/element_rules.hpp; if it exceeds the largest the element is halved. When x0 is one of
+// the ends, M = smooth + log_coefficient log(m1), and on a straight element m1 = L^2 t^2 / ((r + r0)^2 + (z - z0)^2): a
+// product rule takes log t exactly, and the nearest singularity is the mirror point (-r0, z0).
 #pragma once
 
 #include "../geometry/spline_geometry.hpp"
-#include "../quadrature/gauss_legendre.hpp"
+#include "../quadrature/element_rules.hpp"
+#include "../quadrature/kernel_row.hpp"
 #include "../quadrature/regular_quadrature.hpp"
 #include "linear_surface.hpp"
 
@@ -47,31 +43,11 @@ class LinearElements : public SplineGeometry<S> {
 
     /// Throws InvalidArgument when the tolerance is not in (0, 0.1] or a meshing parameter is out of range.
     explicit LinearElements(Params params = {})
-        : SplineGeometry<S>(params.meshing), params_(checked(params)), rules_(largest_order(params.tolerance)) {
-        using std::cosh;
-        using std::log;
-        // A half-axis sum a >= needed_[n] makes n nodes enough.
-        const S digits = log(S(1) / params_.tolerance);
-        needed_.assign(2, std::numeric_limits<S>::infinity());
-        for (Index n = 2; n <= rules_.largest(); ++n) {
-            needed_.push_back(cosh(digits / S(2 * n - 2)));
-        }
-    }
+        : SplineGeometry<S>(params.meshing), params_(checked(params)), rules_(params.tolerance) {}
 
     const Params& params() const { return params_; }
 
     Surface surface(const Meridian<S>& meridian) const { return linear_surface(meridian); }
-
-    /// Nodes of the rule for a target whose distances to the two ends of an element sum to `distance_sum`, or 0 if the
-    /// element must be halved.
-    Index order(const S& distance_sum, const S& length) const {
-        for (Index n = smallest_order; n <= rules_.largest(); ++n) {
-            if (distance_sum >= needed_[static_cast<std::size_t>(n)] * length) {
-                return n;
-            }
-        }
-        return 0;
-    }
 
     /// u = G f for targets at the nodes: G is 2n x 2n, f and u are stacked [r; z]; f is a force density (kappa/R0^3), u
     /// a velocity (kappa/(eta R0^2)). Includes the factor 1/(8 pi).
@@ -87,18 +63,10 @@ class LinearElements : public SplineGeometry<S> {
     }
 
   private:
-    static constexpr Index smallest_order = 2;
     static constexpr int deepest_halving = 60;
     /// Least half-axis sum towards the mirror point in a product rule: m1 < 0.12 on its part of the element. Closer to
     /// the axis the kernel's split is a difference of steep polynomials in m1.
     static constexpr int mirror_clearance = 7;
-
-    /// A rule of p nodes reaches the tolerance when the target is no closer than half an element (a = sqrt 2 at least).
-    static Index largest_order(const S& tolerance) {
-        using std::log;
-        const double digits = static_cast<double>(log(S(1) / tolerance));
-        return std::max<Index>(4, 2 * static_cast<Index>(std::ceil(digits / (4 * std::log(1.0 + std::sqrt(2.0))))) + 4);
-    }
 
     static Params checked(Params params) {
         detail::require(params.tolerance > S(0) && params.tolerance <= S(0.1), "quadrature tolerance", params.tolerance,
@@ -128,27 +96,8 @@ class LinearElements : public SplineGeometry<S> {
         Index size() const { return static_cast<Index>(r.size()); }
     };
 
-    struct Entries {
-        std::vector<S> rr, rz, zr, zz;
-
-        KernelArrays<S> arrays(Index n) {
-            for (std::vector<S>* entry : {&rr, &rz, &zr, &zz}) {
-                entry->resize(static_cast<std::size_t>(n));
-            }
-            return {rr.data(), rz.data(), zr.data(), zz.data()};
-        }
-    };
-
-    /// Row of G for one target, accumulated in four contiguous vectors.
-    struct Row {
-        explicit Row(Index n) : rr(n), rz(n), zr(n), zz(n) {}
-        void set_zero() {
-            for (Vector<S>* entry : {&rr, &rz, &zr, &zz}) {
-                entry->setZero();
-            }
-        }
-        Vector<S> rr, rz, zr, zz;
-    };
+    using Entries = detail::KernelEntries<S>;
+    using Row = detail::KernelRow<S>;
 
     static S distance(const S& r0, const S& z0, const S& r, const S& z) {
         using std::sqrt;
@@ -188,10 +137,7 @@ class LinearElements : public SplineGeometry<S> {
                     add_singular_element(m, i, target, true, kernel, points, entries, log_entries, row);
                 }
             }
-            g.row(i).head(n) = scale * row.rr;
-            g.row(i).tail(n) = scale * row.rz;
-            g.row(rows + i).head(n) = scale * row.zr;
-            g.row(rows + i).tail(n) = scale * row.zz;
+            row.store(scale, i, rows, g);
         }
         if constexpr (Kernel::has_regular_part) {
             add_regular_part(targets, m, kernel, g);
@@ -225,10 +171,12 @@ class LinearElements : public SplineGeometry<S> {
         RegularQuadrature<S> result;
         result.points = {Eigen::Map<const Vector<S>>(points.r.data(), points.size()),
                          Eigen::Map<const Vector<S>>(points.z.data(), points.size())};
+        result.panel.resize(points.size());
         std::vector<Eigen::Triplet<S>> entries;
         const S scale = S(1) / (8 * detail::pi_value<S>());
         for (std::size_t q = 0; q < points.r.size(); ++q) {
             const auto lower = static_cast<int>(points.element[q]);
+            result.panel[static_cast<Index>(q)] = (m.z[lower] + m.z[lower + 1]) / 2;
             entries.emplace_back(static_cast<int>(q), lower, scale * points.lower[q]);
             entries.emplace_back(static_cast<int>(q), lower + 1, scale * points.upper[q]);
         }
@@ -240,7 +188,7 @@ class LinearElements : public SplineGeometry<S> {
     /// Nodes for a singularity abreast of the middle of a part of an element, at `closest` from it.
     Index regular_order(const S& closest, const S& length) const {
         using std::sqrt;
-        const Index n = order(2 * sqrt(length * length / 4 + closest * closest), length);
+        const Index n = rules_.order(2 * sqrt(length * length / 4 + closest * closest), length);
         return n == 0 ? rules_.largest() : n;
     }
 
@@ -250,7 +198,7 @@ class LinearElements : public SplineGeometry<S> {
         const S dr = m.r[e + 1] - m.r[e];
         const S dz = m.z[e + 1] - m.z[e];
         const S length = distance(S(0), S(0), dr, dz);
-        Index n = order(from + to, length * (end - begin));
+        Index n = rules_.order(from + to, length * (end - begin));
         if (n == 0 && depth == deepest_halving) {
             n = rules_.largest();
         }
@@ -283,20 +231,13 @@ class LinearElements : public SplineGeometry<S> {
         const KernelArrays<S> out = entries.arrays(points.size());
         kernel.singular(target, points.r.data(), points.z.data(), points.size(), out);
         for (std::size_t q = 0; q < points.r.size(); ++q) {
-            add(row, points.element[q], points.lower[q], points.upper[q],
-                {entries.rr[q], entries.rz[q], entries.zr[q], entries.zz[q]});
+            add(row, points.element[q], points.lower[q], points.upper[q], entries[q]);
         }
     }
 
     static void add(Row& row, Index e, const S& lower, const S& upper, const KernelBlock<S>& m) {
-        row.rr[e] += lower * m.rr;
-        row.rr[e + 1] += upper * m.rr;
-        row.rz[e] += lower * m.rz;
-        row.rz[e + 1] += upper * m.rz;
-        row.zr[e] += lower * m.zr;
-        row.zr[e + 1] += upper * m.zr;
-        row.zz[e] += lower * m.zz;
-        row.zz[e + 1] += upper * m.zz;
+        row.add(e, lower, m);
+        row.add(e + 1, upper, m);
     }
 
     /// Element e with the target at one of its ends. The product rule covers the part of it, from the target on, that
@@ -310,7 +251,7 @@ class LinearElements : public SplineGeometry<S> {
         const S dr = m.r[other] - target.r;
         const S dz = m.z[other] - target.z;
         S length = distance(S(0), S(0), dr, dz);
-        Index n = smallest_order;
+        Index n = ElementRules<S>::smallest_order;
         S part = 1;
         if (target.r > S(0)) {
             const auto mirror_sum = [&] {
@@ -320,7 +261,7 @@ class LinearElements : public SplineGeometry<S> {
                 part /= 2;
             }
             // The product rule interpolates: rho^(-n) instead of rho^(-2n).
-            n = std::min(2 * order(mirror_sum(), part * length), rules_.largest());
+            n = std::min(2 * rules_.order(mirror_sum(), part * length), rules_.largest());
         }
         if (part < S(1)) {
             const S near = part * length;
@@ -354,8 +295,7 @@ class LinearElements : public SplineGeometry<S> {
     }
 
     Params params_;
-    GaussLegendreTable<S> rules_;
-    std::vector<S> needed_;
+    ElementRules<S> rules_;
 };
 
 }  // namespace axistokes

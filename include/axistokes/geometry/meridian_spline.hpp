@@ -7,6 +7,7 @@
 #include "measures.hpp"
 #include "meridian.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace axistokes {
@@ -77,6 +78,8 @@ class MeridianSpline {
     S max_radius() const {
         S largest = 0;
         for (Index e = 0; e < elements(); ++e) {
+            // A maximum at a node can miss both of its elements: the slope there is zero only up to rounding.
+            largest = std::max(largest, r_.value(e, S(0)));
             if (r_.first(e, S(0)) < S(0) || r_.first(e, S(1)) > S(0)) {
                 continue;
             }

@@ -10,12 +10,12 @@
 namespace axistokes {
 
 /// How closely nodes follow the curvature: the spacing is proportional to 1 / sqrt(1 + (a k)^2), where k is the
-/// meridional curvature (in 1/R0, smoothed over `smoothing` of the curve's length) and a = curvature_weight in R0.
-/// 0 gives equal arc lengths.
+/// meridional curvature (in 1/R0) and a = curvature_weight in R0; the root is smoothed over `smoothing` of the curve's
+/// length, at least two intervals: what the nodes do not resolve must not move them. 0 gives equal arc lengths.
 template <class S>
 struct NodeSpacing {
     S curvature_weight = S(0.5);
-    S smoothing = S(0.03);
+    S smoothing = S(0.05);
 };
 
 namespace detail {
@@ -51,9 +51,9 @@ Vector<S> diffuse(const Vector<S>& t, const Vector<S>& values, const S& width) {
     return result;
 }
 
-/// The wanted density of nodes per unit of the spline's parameter, up to a factor.
+/// The wanted density of nodes per unit of the spline's parameter, up to a factor, for a mesh of `elements` intervals.
 template <class S>
-CubicSpline<S> node_density(const MeridianSpline<S>& spline, const NodeSpacing<S>& spacing) {
+CubicSpline<S> node_density(const MeridianSpline<S>& spline, const NodeSpacing<S>& spacing, Index elements) {
     using std::sqrt;
     const Vector<S>& t = spline.parameters();
     Vector<S> density(t.size());
@@ -61,7 +61,7 @@ CubicSpline<S> node_density(const MeridianSpline<S>& spline, const NodeSpacing<S
         const S k = spacing.curvature_weight * spline.at_node(i).meridional_curvature();
         density[i] = sqrt(S(1) + k * k);
     }
-    density = diffuse<S>(t, density, spacing.smoothing * t[t.size() - 1]);
+    density = diffuse<S>(t, density, std::max<S>(spacing.smoothing, S(2) / S(elements)) * t[t.size() - 1]);
     for (Index i = 0; i < t.size(); ++i) {
         density[i] *= spline.at_node(i).speed();
     }
@@ -73,7 +73,7 @@ CubicSpline<S> node_density(const MeridianSpline<S>& spline, const NodeSpacing<S
 /// Largest ratio between a node interval and the one `spacing` asks for, or its inverse; 1 is perfect.
 template <class S>
 S spacing_distortion(const Meridian<S>& meridian, const NodeSpacing<S>& spacing) {
-    const CubicSpline<S> density = detail::node_density(MeridianSpline<S>(meridian), spacing);
+    const CubicSpline<S> density = detail::node_density(MeridianSpline<S>(meridian), spacing, meridian.elements());
     S total = 0;
     S smallest = density.integral(0, S(1));
     S largest = smallest;
@@ -93,7 +93,7 @@ template <class S>
 Meridian<S> redistribute(const Meridian<S>& meridian, const NodeSpacing<S>& spacing, Index elements) {
     detail::require_elements(elements);
     const MeridianSpline<S> spline(meridian);
-    const CubicSpline<S> density = detail::node_density(spline, spacing);
+    const CubicSpline<S> density = detail::node_density(spline, spacing, elements);
     S total = 0;
     for (Index e = 0; e < density.elements(); ++e) {
         total += density.integral(e, S(1));

@@ -17,8 +17,8 @@ enum class SpheroidKind { prolate, oblate };
 template <class S>
 S spheroid_area(const S& a, const S& c) {
     using std::abs;
-    using std::asin;
     using std::asinh;
+    using std::atan2;
     using std::sqrt;
     const S pi = detail::pi_value<S>();
     detail::require(a > S(0), "equatorial semi-axis", a, "> 0");
@@ -36,38 +36,25 @@ S spheroid_area(const S& a, const S& c) {
         return c > a ? S(2 * pi * a * (a + c * ratio)) : S(2 * pi * (a * a + c * c * ratio));
     }
     if (c > a) {
-        return 2 * pi * a * (a + c * asin(e) / e);
+        return 2 * pi * a * (a + c * atan2(S(e * c), a) / e);  // = asin(e), also for c >> a
     }
     return 2 * pi * (a * a + c * c * asinh(e * a / c) / e);  // asinh(e a/c) = artanh(e), also for c << a
 }
 
-/// Meridian of the ellipse with semi-axes a (equatorial) and c (polar), its nodes spaced as `spacing` asks for.
-/// Throws InvalidArgument for fewer than 8 elements or a semi-axis that is not positive and finite.
-template <class S>
-Meridian<S> spheroid(const S& a, const S& c, Index elements, const NodeSpacing<S>& spacing = {}) {
-    using std::cos;
-    using std::isfinite;
-    using std::sin;
-    detail::require(a > S(0) && isfinite(a), "equatorial semi-axis", a, "> 0 and finite");
-    detail::require(c > S(0) && isfinite(c), "polar semi-axis", c, "> 0 and finite");
-    detail::require_elements(elements);
-    const S pi = detail::pi_value<S>();
-    const auto at_angles = [&](const Vector<S>& angle) {
-        Meridian<S> m{Vector<S>(angle.size()), Vector<S>(angle.size())};
-        for (Index i = 0; i < angle.size(); ++i) {
-            m.r[i] = a * sin(angle[i]);
-            m.z[i] = -c * cos(angle[i]);
-        }
-        m.r[0] = m.r[angle.size() - 1] = 0;
-        return m;
-    };
-    // The wanted angles are read off a spline with many nodes; the nodes themselves then lie exactly on the ellipse.
+namespace detail {
+
+/// Nodes spaced as `spacing` asks for and exactly on the curve that `at_angles` evaluates at angles in [0, pi] from the
+/// lower pole to the upper one. The wanted angles are read off a spline with many nodes.
+template <class S, class Curve>
+Meridian<S> spaced_on_curve(const Curve& at_angles, Index elements, const NodeSpacing<S>& spacing) {
+    require_elements(elements);
+    const S pi = pi_value<S>();
     const Index fine = 16 * elements;
     Vector<S> angle(fine + 1);
     for (Index i = 0; i <= fine; ++i) {
         angle[i] = pi * S(i) / S(fine);
     }
-    const CubicSpline<S> density = detail::node_density(MeridianSpline<S>(at_angles(angle)), spacing);
+    const CubicSpline<S> density = node_density(MeridianSpline<S>(at_angles(angle)), spacing, elements);
     Vector<S> cumulative(fine + 1);
     cumulative[0] = 0;
     for (Index e = 0; e < fine; ++e) {
@@ -86,6 +73,40 @@ Meridian<S> spheroid(const S& a, const S& c, Index elements, const NodeSpacing<S
         wanted[i] = inverse.value(e, (target - cumulative[e]) / inverse.length(e));
     }
     return at_angles(wanted);
+}
+
+/// z = -c cos t, r = a sqrt(1 - cos^(2q) t), written as sin t times an analytic factor: an ellipse for q = 1, ever
+/// closer to a cylinder with rounded ends as q grows.
+template <class S>
+Meridian<S> superspheroid_points(const S& a, const S& c, int q, const Vector<S>& angle) {
+    using std::cos;
+    using std::sin;
+    using std::sqrt;
+    Meridian<S> m{Vector<S>(angle.size()), Vector<S>(angle.size())};
+    for (Index i = 0; i < angle.size(); ++i) {
+        const S cosine = cos(angle[i]);
+        S sum = 1;
+        for (int k = 1; k < q; ++k) {
+            sum = S(1) + sum * cosine * cosine;
+        }
+        m.r[i] = a * sin(angle[i]) * sqrt(sum);
+        m.z[i] = -c * cosine;
+    }
+    m.r[0] = m.r[angle.size() - 1] = 0;
+    return m;
+}
+
+}  // namespace detail
+
+/// Meridian of the ellipse with semi-axes a (equatorial) and c (polar), its nodes spaced as `spacing` asks for.
+/// Throws InvalidArgument for fewer than 8 elements or a semi-axis that is not positive and finite.
+template <class S>
+Meridian<S> spheroid(const S& a, const S& c, Index elements, const NodeSpacing<S>& spacing = {}) {
+    using std::isfinite;
+    detail::require(a > S(0) && isfinite(a), "equatorial semi-axis", a, "> 0 and finite");
+    detail::require(c > S(0) && isfinite(c), "polar semi-axis", c, "> 0 and finite");
+    return detail::spaced_on_curve<S>(
+        [&](const Vector<S>& angle) { return detail::superspheroid_points<S>(a, c, 1, angle); }, elements, spacing);
 }
 
 /// Sphere of the given radius (in R0).
@@ -116,7 +137,7 @@ S spheroid_aspect_of_excess_area(const S& excess_area, SpheroidKind kind) {
         return S(1);
     }
     const S target = 4 * detail::pi_value<S>() + excess_area;
-    const int sign = kind == SpheroidKind::prolate ? 1 : -1;
+    const S sign = kind == SpheroidKind::prolate ? S(1) : S(-1);
     S low = 0;
     S high = 12;  // of |log(aspect)|
     for (int k = 0; k < std::numeric_limits<S>::digits + 4; ++k) {

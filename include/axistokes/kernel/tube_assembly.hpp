@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace axistokes {
-
-namespace detail {
+namespace axistokes::detail {
 
 /// Factors of all points of a batch, slab by slab. A point's two velocity components are two rows; a wave number is
 /// four columns, (P, Q) x (cos, sin) or (P, Q) x (Re, Im), so arranged that -out is the product of target and source
@@ -29,17 +27,20 @@ class TubeAssembly {
         Kernel::require_clear(gap);
         const S bottom = std::min(targets_.z.minCoeff(), close.points.z.minCoeff());
         const S top = std::max(targets_.z.maxCoeff(), close.points.z.maxCoeff());
-        make_slabs(bottom, top);
+        const S stray = (close.points.z - close.panel).cwiseAbs().maxCoeff();
+        make_slabs(bottom, top, stray);
         const auto height = static_cast<double>(edges_[1] - edges_[0]);
+        const auto slack = static_cast<double>(stray);
         const auto slabs = static_cast<Index>(edges_.size()) - 1;
         const auto eps = static_cast<double>(kernel_.params().tolerance);
         const auto extent = static_cast<double>(top - bottom);
         const S radius = kernel_.tube_radius();
-        near(TubeSpectrum<S>(radius, 0, std::min(extent, 2 * height), static_cast<double>(gap), eps), sources, out);
+        near(TubeSpectrum<S>(radius, 0, std::min(extent, 2 * height + slack), static_cast<double>(gap), eps), sources,
+             out);
         if constexpr (RayScalar<S>::turned) {
             if (slabs > 2) {
-                const RegularQuadrature<S> distant = quadrature(edges_[1] - edges_[0]);
-                far(TubeSpectrum<std::complex<S>>(radius, height, extent, static_cast<double>(gap), eps),
+                const RegularQuadrature<S> distant = quadrature(S(height - slack));
+                far(TubeSpectrum<std::complex<S>>(radius, height - slack, extent, static_cast<double>(gap), eps),
                     Sources(*this, distant), out);
             }
         }
@@ -54,8 +55,9 @@ class TubeAssembly {
 
     struct Sources {
         Sources(const TubeAssembly& assembly, const RegularQuadrature<S>& q)
-            : points(q.points), weights(q.weights), gap(assembly.gaps(q.points, "source radius")) {}
+            : points(q.points), panel(q.panel), weights(q.weights), gap(assembly.gaps(q.points, "source radius")) {}
         const Meridian<S>& points;
+        const Vector<S>& panel;
         const Weights& weights;
         Vector<S> gap;
     };
@@ -68,9 +70,12 @@ class TubeAssembly {
         return result;
     }
 
-    void make_slabs(const S& bottom, const S& top) {
-        const auto height = static_cast<double>((top - bottom) / kernel_.tube_radius());
-        const auto count = RayScalar<S>::turned ? std::max<Index>(1, static_cast<Index>(height / slab_height)) : 1;
+    /// Points stray at most a quarter of a slab's height out of their panel's slab.
+    void make_slabs(const S& bottom, const S& top, const S& stray) {
+        const S least = std::max<S>(S(slab_height) * kernel_.tube_radius(), 4 * stray);
+        const auto count = RayScalar<S>::turned
+                               ? std::max<Index>(1, static_cast<Index>(static_cast<double>((top - bottom) / least)))
+                               : 1;
         edges_.resize(static_cast<std::size_t>(count) + 1);
         for (Index k = 0; k <= count; ++k) {
             edges_[static_cast<std::size_t>(k)] = bottom + (top - bottom) * S(k) / S(count);
@@ -147,7 +152,7 @@ class TubeAssembly {
         const S centre = (edges_.front() + edges_.back()) / 2;
         const S nearest_target = target_gap_.minCoeff();
         const S nearest_point = sources.gap.minCoeff();
-        const std::vector<std::vector<Index>> point_slabs = sorted(sources.points.z);
+        const std::vector<std::vector<Index>> point_slabs = sorted(sources.panel);
         // Rows (r, z) of one point; wave numbers past its reach are zero.
         const auto fill = [&](const S& z, std::size_t relevant, S* row_r, S* row_z, const auto& modes) {
             for (std::size_t k = 0; k < relevant; ++k) {
@@ -234,7 +239,7 @@ class TubeAssembly {
             targets_up.push_back(std::move(up));
             targets_down.push_back(std::move(down));
         }
-        const std::vector<std::vector<Index>> point_slabs = sorted(sources.points.z);
+        const std::vector<std::vector<Index>> point_slabs = sorted(sources.panel);
         Rows up(2, columns);
         Rows down(2, columns);
         for (std::size_t j = 0; j < slabs; ++j) {
@@ -292,5 +297,4 @@ class TubeAssembly {
     std::vector<std::vector<Index>> target_slabs_;
 };
 
-}  // namespace detail
-}  // namespace axistokes
+}  // namespace axistokes::detail

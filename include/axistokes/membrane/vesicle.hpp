@@ -7,6 +7,10 @@
 
 #include "../concepts.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace axistokes {
 
 namespace detail {
@@ -85,7 +89,7 @@ class Vesicle {
         system.block(0, n, n, tensions) = -(g * surface.tension_force);
         system.block(n, 0, tensions, n) = surface.divergence;
         if (sphere) {
-            const Vector<S> rigidity = Vector<S>::Constant(surface.size(), S(-2 * saturated_resistance));
+            const Vector<S> rigidity = Vector<S>::Constant(surface.size(), S(-2 * saturated_resistance()));
             system.topLeftCorner(n, n) -=
                 g * surface.along_normal(Operator(rigidity.asDiagonal() * surface.mean_curvature_of));
             // A uniform tension is a pressure, and dA/dt = 2 dV/dt = 0 makes one of the constraints redundant: fix the
@@ -112,8 +116,12 @@ class Vesicle {
   private:
     /// A sphere has no area to spare: its tension grows without bound against any deformation, although div_s u = 0
     /// alone admits deformations to first order. The limit is a resistance to the rate of change of the curvature,
-    /// large against the viscous one of the fluid (which is 1 in these units).
-    static constexpr double saturated_resistance = 1e5;
+    /// large against the viscous one of the fluid (which is 1 in these units) and small enough for the type to resolve
+    /// both.
+    static S saturated_resistance() {
+        using std::sqrt;
+        return std::min<S>(S(1e5), S(0.1) / sqrt(std::numeric_limits<S>::epsilon()));
+    }
 
     /// (gamma + sqrt(gamma^2 + m^2))/2 with m the mean of |gamma|: a kink would cost higher-order steps their order,
     /// and slightly negative tensions their stability.

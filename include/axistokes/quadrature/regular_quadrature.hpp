@@ -14,6 +14,9 @@ namespace axistokes {
 template <class S>
 struct RegularQuadrature {
     Meridian<S> points;
+    /// Axial position of the panel a point belongs to. Kernels that treat close and distant panels by quadratures of
+    /// different order decide by it, so that every panel is integrated by one rule as a whole.
+    Vector<S> panel;
     Eigen::SparseMatrix<S, Eigen::RowMajor> weights;
 };
 

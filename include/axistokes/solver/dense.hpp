@@ -7,16 +7,24 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include <limits>
+#include <string>
+
 namespace axistokes {
 
 namespace detail {
 
-template <class S>
-Vector<S> finite_or_throw(Vector<S> x, const char* solver) {
-    if (!x.allFinite()) {
+/// Throws unless the matrix is regular to working precision; NaN is not. A singular matrix rarely has a pivot that is
+/// exactly zero: rounding leaves one of order eps, and a finite solution of order 1/eps without a meaning.
+inline void require_regular(bool regular, const char* solver) {
+    if (!regular) {
         throw SimulationFailure(std::string(solver) + ": the matrix is singular or not finite");
     }
-    return x;
+}
+
+template <class S>
+bool regular(const Eigen::PartialPivLU<Matrix<S>>& lu) {
+    return lu.rcond() > std::numeric_limits<S>::epsilon();
 }
 
 }  // namespace detail
@@ -27,22 +35,28 @@ class DenseLU {
   public:
     using Scalar = S;
 
-    void factorize(const Matrix<S>& a) { lu_.compute(a); }
-    Vector<S> solve(const Vector<S>& b) const { return detail::finite_or_throw<S>(lu_.solve(b), "dense LU"); }
+    void factorize(const Matrix<S>& a) {
+        lu_.compute(a);
+        detail::require_regular(detail::regular<S>(lu_), "dense LU");
+    }
+    Vector<S> solve(const Vector<S>& b) const { return lu_.solve(b); }
 
   private:
     Eigen::PartialPivLU<Matrix<S>> lu_;
 };
 
-/// Householder QR with column pivoting: backward stable without growth, least squares when the matrix is singular; some
-/// five times the cost of LU.
+/// Householder QR with column pivoting: backward stable without growth, and reveals the rank; some five times the cost
+/// of LU.
 template <class S = double>
 class DenseQR {
   public:
     using Scalar = S;
 
-    void factorize(const Matrix<S>& a) { qr_.compute(a); }
-    Vector<S> solve(const Vector<S>& b) const { return detail::finite_or_throw<S>(qr_.solve(b), "dense QR"); }
+    void factorize(const Matrix<S>& a) {
+        qr_.compute(a);
+        detail::require_regular(a.allFinite() && qr_.isInvertible(), "dense QR");
+    }
+    Vector<S> solve(const Vector<S>& b) const { return qr_.solve(b); }
 
   private:
     Eigen::ColPivHouseholderQR<Matrix<S>> qr_;

@@ -6,12 +6,15 @@
 #pragma once
 
 #include "../core.hpp"
+#include "dense.hpp"
 
 #include <Eigen/LU>
 #include <unsupported/Eigen/IterativeSolvers>
 
+#include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace axistokes {
 
@@ -97,7 +100,7 @@ class Gmres {
             }
         }
         throw SimulationFailure("GMRES: no convergence in " + std::to_string(params_.patience) +
-                                " iterations with a fresh LU preconditioner: the matrix is singular or not finite");
+                                " iterations with a fresh LU preconditioner");
     }
 
     /// Of the last solve.
@@ -107,8 +110,10 @@ class Gmres {
 
   private:
     void renew() {
-        factors_ = std::make_shared<const Eigen::PartialPivLU<Matrix<S>>>(matrix_);
+        auto factors = std::make_shared<const Eigen::PartialPivLU<Matrix<S>>>(matrix_);
         ++factorizations_;
+        detail::require_regular(detail::regular<S>(*factors), "GMRES");
+        factors_ = std::move(factors);
     }
 
     Params params_;

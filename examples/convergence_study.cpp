@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Stationary shapes against the number of elements, with the observed order and the cost, and minimal bending energies
+// (docs/validation.md).
+#include "support/program.hpp"
+#include "support/report.hpp"
+#include <axistokes/axistokes.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace axistokes;
+
+template <class Flow>
+using VesicleIn = Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, Flow, SemiImplicitEuler,
+                            DenseLU<double>>;
+
+SimulationParams<double> params() {
+    SimulationParams<double> params;
+    params.tolerance = 1e-7;
+    return params;
+}
+
+/// p of q(N) = q + c N^-p through three values, N increasing; NaN if they are not monotonic.
+double observed_order(const std::array<Index, 3>& n, const std::array<double, 3>& q) {
+    const double wanted = (q[0] - q[1]) / (q[1] - q[2]);
+    const auto ratio = [&](double p) {
+        const auto power = [&](std::size_t i) { return std::pow(static_cast<double>(n[i]), -p); };
+        return (power(0) - power(1)) / (power(1) - power(2));
+    };
+    double low = 0.1;
+    double high = 12;
+    if (!(ratio(low) < wanted && wanted < ratio(high))) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    for (int i = 0; i < 60; ++i) {
+        const double middle = (low + high) / 2;
+        (ratio(middle) < wanted ? low : high) = middle;
+    }
+    return low;
+}
+
+template <class Flow>
+void convergence_table(const std::string& directory, const std::string& name, const Flow& flow) {
+    constexpr std::array<Index, 4> kElements{32, 64, 130, 260};
+    struct Row {
+        std::array<double, 3> quantities;
+        Index steps;
+        double seconds;
+    };
+    std::vector<Row> rows;
+    for (const Index n : kElements) {
+        VesicleIn<Flow> simulator(spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n), flow, params());
+        const auto begin = std::chrono::steady_clock::now();
+        if (!simulator.run()) {
+            throw SimulationFailure(name + ": not stationary with " + std::to_string(n) + " elements");
+        }
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        const StepRecord<double>& last = simulator.history().back();
+        rows.push_back({{last.velocity, last.length, last.bending_energy}, last.step, seconds});
+    }
+    examples::Report table(directory, name + ".csv",
+                           "elements,velocity,length,bending_energy,steps,wall_seconds,cost_ratio");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& [velocity, length, energy] = rows[i].quantities;
+        table.row(kElements[i], velocity, length, energy, rows[i].steps, rows[i].seconds,
+                  rows[i].seconds / rows.back().seconds);
+    }
+    examples::Report orders(directory, name + "_order.csv", "elements,velocity,length,bending_energy");
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+        const auto order = [&](std::size_t q) {
+            return observed_order({kElements[i - 2], kElements[i - 1], kElements[i]},
+                                  {rows[i - 2].quantities[q], rows[i - 1].quantities[q], rows[i].quantities[q]});
+        };
+        orders.row(std::to_string(kElements[i - 2]) + " to " + std::to_string(kElements[i]), order(0), order(1),
+                   order(2));
+    }
+}
+
+/// Energies over 8 pi; largest_rise is the largest increase in a step, relative to the energy.
+void relaxation_table(const std::string& directory) {
+    struct Minimum {
+        double reduced_volume;
+        SpheroidKind kind;
+        double energy;  // of the minimal shape, over 8 pi, from the axisymmetric shape equations
+    };
+    constexpr std::array<Minimum, 8> kMinima{{{0.95, SpheroidKind::prolate, 1.09557},
+                                              {0.95, SpheroidKind::oblate, 1.10612},
+                                              {0.9, SpheroidKind::prolate, 1.18964},
+                                              {0.9, SpheroidKind::oblate, 1.21786},
+                                              {0.8, SpheroidKind::prolate, 1.38744},
+                                              {0.8, SpheroidKind::oblate, 1.45254},
+                                              {0.65, SpheroidKind::prolate, 1.82793},
+                                              {0.65, SpheroidKind::oblate, 1.82623}}};
+    examples::Report table(directory, "relaxation.csv",
+                           "reduced_volume,initial,elements,energy,reference,difference,steps,largest_rise");
+    for (const auto& [reduced_volume, kind, reference] : kMinima) {
+        for (const Index n : {64, 130}) {
+            const double excess_area = 4 * std::numbers::pi * (std::pow(reduced_volume, -2.0 / 3) - 1);
+            VesicleIn<Quiescent<double>> simulator(spheroid_of_excess_area<double>(excess_area, kind, n), {}, params());
+            simulator.run();
+            const auto& history = simulator.history();
+            double rise = 0;
+            for (std::size_t i = 1; i < history.size(); ++i) {
+                rise = std::max(rise, history[i].bending_energy / history[i - 1].bending_energy - 1);
+            }
+            const double energy = history.back().bending_energy / (8 * std::numbers::pi);
+            table.row(reduced_volume, kind == SpheroidKind::prolate ? "prolate" : "oblate", n, energy, reference,
+                      energy - reference, history.back().step, rise);
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{
+        "Convergence of stationary vesicles (settling, Poiseuille flow, relaxation) in the number of elements"};
+    std::string directory;
+    app.add_option("--out", directory, "directory that receives the tables as CSV files");
+    return examples::run_program("convergence_study", app, argc, argv, [&] {
+        std::cout << std::setprecision(8);
+        convergence_table(directory, "settling", Gravity<double>(47));
+        convergence_table(directory, "poiseuille", UnboundedPoiseuille<double>(0.5));
+        relaxation_table(directory);
+        return examples::success;
+    });
+}

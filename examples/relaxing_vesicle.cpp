@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// A vesicle in a fluid at rest relaxes to a minimum of its bending energy.
+#include "support/run.hpp"
+#include <axistokes/axistokes.hpp>
+
+#include <cmath>
+#include <numbers>
+
+int main(int argc, char** argv) {
+    using namespace axistokes;
+    using Relaxing = Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, Quiescent<double>,
+                               SemiImplicitEuler, DenseLU<double>>;
+
+    CLI::App app{"An axisymmetric vesicle relaxes, without flow, to the shape of least bending energy near its own"};
+    examples::VesicleOptions vesicle;
+    examples::RunOptions run;
+    double reduced_volume = 0.8;
+    vesicle.add_kind_to(app);
+    CLI::Option* by_volume =
+        examples::add_number(app, "--reduced-volume", reduced_volume, "volume over that of the sphere of equal area");
+    CLI::Option* by_area =
+        examples::add_number(app, "--excess-area", vesicle.excess_area, "instead: area minus 4 pi, in R0^2");
+    by_area->excludes(by_volume)->default_str("");
+    run.add_to(app);
+
+    return examples::run_program("relaxing_vesicle", app, argc, argv, [&] {
+        if (by_area->count() == 0) {
+            detail::require(reduced_volume > 0 && reduced_volume <= 1, "reduced volume", reduced_volume, "in (0, 1]");
+            vesicle.excess_area = 4 * std::numbers::pi * (std::pow(reduced_volume, -2.0 / 3) - 1);
+        }
+        const auto params = run.params();
+        Relaxing simulator(vesicle.shape(run.elements), {}, params);
+        return examples::run_to_end(simulator, run, {{"excess_area", vesicle.excess_area}, {"initial", vesicle.kind}});
+    });
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Options that the simulations share.
+#pragma once
+
+#include "program.hpp"
+#include <axistokes/geometry/shapes.hpp>
+#include <axistokes/simulator.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace examples {
+
+/// How long to run, how finely, and where the results go.
+struct RunOptions {
+    axistokes::Index elements = 64;
+    double tolerance = 1e-5;
+    std::optional<double> time_step;
+    std::optional<double> time;
+    std::optional<axistokes::Index> steps;
+    std::string directory;
+    bool vtk = false;
+    bool flow_field = false;
+    std::vector<double> frame_times;
+
+    void add_to(CLI::App& app) {
+        add_number(app, "--elements", elements, "elements on the meridian");
+        add_number(app, "--tolerance", tolerance, "stationary when the residual is below this");
+        add_output_to(app);
+        add_number(app, "--dt", time_step, "fixed time step (default: automatic)");
+        add_number(app, "--time", time, "stop at this time, stationary or not");
+        add_number(app, "--max-steps", steps, "stop after this many steps, stationary or not");
+        app.add_option("--frame-times", frame_times,
+                       "t1,t2,...: also write frames.csv, the first shape at or after each of these times")
+            ->delimiter(',')
+            ->check(number_check<double>("--frame-times"));
+    }
+
+    void add_output_to(CLI::App& app) {
+        app.add_option("--out", directory, "directory for summary.json, shape.csv and history.csv; created if missing");
+        app.add_flag("--vtk", vtk, "also write surface.vtp, for ParaView");
+        app.add_flag("--flow-field", flow_field, "also write flow.vts, the flow in a plane through the axis");
+    }
+
+    axistokes::SimulationParams<double> params() const {
+        axistokes::detail::require(elements <= 4000, "number of elements", elements,
+                                   "at most 4000 (the matrices are dense)");
+        axistokes::SimulationParams<double> params;
+        params.tolerance = tolerance;
+        params.time_step = time_step;
+        params.longest_time = time.value_or(params.longest_time);
+        params.most_steps = steps.value_or(params.most_steps);
+        return params;
+    }
+};
+
+/// The initial spheroid of a vesicle.
+struct VesicleOptions {
+    double excess_area = 0.6;
+    std::string kind = "prolate";
+
+    void add_to(CLI::App& app) {
+        add_number(app, "--excess-area", excess_area, "area of the membrane minus 4 pi, in R0^2 (0: a sphere)");
+        add_kind_to(app);
+    }
+
+    void add_kind_to(CLI::App& app) {
+        app.add_option("--initial", kind, "initial shape: prolate or oblate spheroid")->capture_default_str();
+    }
+
+    axistokes::SpheroidKind spheroid_kind() const {
+        axistokes::detail::require(kind == "prolate" || kind == "oblate", "initial shape", kind, "prolate or oblate");
+        return kind == "prolate" ? axistokes::SpheroidKind::prolate : axistokes::SpheroidKind::oblate;
+    }
+
+    axistokes::Meridian<double> shape(axistokes::Index elements) const {
+        return axistokes::spheroid_of_excess_area<double>(excess_area, spheroid_kind(), elements);
+    }
+};
+
+}  // namespace examples

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// A progress bar on a terminal, and a clean stop on Ctrl-C.
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+namespace examples {
+
+/// Fills from 0 to 1 and never goes back. Silent unless standard error is a terminal.
+class ProgressBar {
+  public:
+    ProgressBar() : visible_(isatty(fileno(stderr)) != 0) {}
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+    ~ProgressBar() {
+        if (drawn_) {
+            std::cerr << "\r\033[K" << std::flush;
+        }
+    }
+
+    void show(double fraction, const std::string& text) {
+        fraction_ = std::clamp(fraction, fraction_, 1.0);
+        const auto now = Clock::now();
+        if (!visible_ || (drawn_ && now - last_ < std::chrono::milliseconds(50))) {
+            return;
+        }
+        last_ = now;
+        drawn_ = true;
+        constexpr int kWidth = 32;
+        const int full = static_cast<int>(std::lround(fraction_ * kWidth));
+        std::cerr << "\r\033[K[" << std::string(static_cast<std::size_t>(full), '#')
+                  << std::string(static_cast<std::size_t>(kWidth - full), '.') << "] " << text << std::flush;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    bool visible_;
+    bool drawn_ = false;
+    double fraction_ = 0;
+    Clock::time_point last_;
+};
+
+/// How far the residual has come, in its logarithm, from its largest value to the tolerance.
+class Approach {
+  public:
+    explicit Approach(double tolerance) : tolerance_(tolerance) {}
+
+    double fraction(double residual) {
+        largest_ = std::max(largest_, residual);
+        if (!(residual > tolerance_)) {
+            return 1;
+        }
+        return std::log(largest_ / residual) / std::log(largest_ / tolerance_);
+    }
+
+  private:
+    double tolerance_;
+    double largest_ = 0;
+};
+
+/// While it lives, Ctrl-C only sets a flag; a second Ctrl-C ends the program as usual.
+class InterruptGuard {
+  public:
+    InterruptGuard() {
+        flag() = 0;
+        previous_ = std::signal(SIGINT, [](int) {
+            flag() = 1;
+            std::signal(SIGINT, SIG_DFL);
+        });
+    }
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+    ~InterruptGuard() { std::signal(SIGINT, previous_); }
+
+    bool interrupted() const { return flag() != 0; }
+
+  private:
+    static volatile std::sig_atomic_t& flag() {
+        static volatile std::sig_atomic_t value = 0;
+        return value;
+    }
+    void (*previous_)(int);
+};
+
+}  // namespace examples

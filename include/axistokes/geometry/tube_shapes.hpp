@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Initial shapes that fit inside a tube.
+#pragma once
+
+#include "shapes.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace axistokes {
+
+namespace detail {
+
+/// Semi-axes (a, c) of the superspheroid of exponent q with volume 4 pi/3 and area 4 pi + excess_area, longer than
+/// wide.
+template <class S>
+std::pair<S, S> superspheroid_of_excess_area(const S& excess_area, int q) {
+    using std::cbrt;
+    using std::exp;
+    const S pi = pi_value<S>();
+    const Index fine = 400;
+    Vector<S> angle(fine + 1);
+    for (Index i = 0; i <= fine; ++i) {
+        angle[i] = pi * S(i) / S(fine);
+    }
+    const auto scaled_area = [&](const S& aspect) {
+        const Measures<S> m = MeridianSpline<S>(superspheroid_points<S>(S(1), aspect, q, angle)).measures();
+        const S scale = cbrt(4 * pi / (3 * m.volume));
+        return std::pair<S, S>{m.area * scale * scale, scale};
+    };
+    // The area of these shapes is least near aspect 1 and grows monotonically beyond.
+    S low = 0;
+    S high = 12;  // of log(aspect)
+    for (int k = 0; k < 60; ++k) {
+        const S middle = (low + high) / 2;
+        (scaled_area(exp(middle)).first < 4 * pi + excess_area ? low : high) = middle;
+    }
+    const S scale = scaled_area(exp(low)).second;
+    return {scale, scale * exp(low)};
+}
+
+}  // namespace detail
+
+/// A vesicle of volume 4 pi/3 and area 4 pi + excess_area that fits into a tube of radius tube_radius (in R0), leaving
+/// a film of 3 % of that radius if possible: the spheroid of the wanted kind, or else the least blunt of the
+/// superspheroids r = a sqrt(1 - (z/c)^(2q)), q = 2, 3, 4. Throws InvalidArgument for an excess area outside [0, 100]
+/// and a tube that is too narrow for all of them.
+template <class S>
+Meridian<S> shape_in_tube(const S& excess_area, const S& tube_radius, SpheroidKind kind, Index elements,
+                          const NodeSpacing<S>& spacing = {}) {
+    using std::isfinite;
+    detail::require(tube_radius > S(0) && isfinite(tube_radius), "tube radius", tube_radius, "> 0 and finite");
+    const S widest = tube_radius * S(0.97);
+    const Meridian<S> wanted = spheroid_of_excess_area<S>(excess_area, kind, elements, spacing);
+    if (wanted.r.maxCoeff() <= widest) {
+        return wanted;
+    }
+    // An oblate shape is turned into no other: which branch a vesicle ends on may depend on its initial shape.
+    S narrowest = wanted.r.maxCoeff();
+    if (kind == SpheroidKind::prolate && excess_area > S(0)) {
+        constexpr int bluntest = 4;
+        for (int q = 2; q <= bluntest; ++q) {
+            const auto [a, c] = detail::superspheroid_of_excess_area<S>(excess_area, q);
+            narrowest = std::min(narrowest, a);
+            if (a <= widest || (q == bluntest && a < tube_radius)) {
+                const S radius = a;
+                const S half_length = c;
+                return detail::spaced_on_curve<S>(
+                    [&](const Vector<S>& angle) {
+                        return detail::superspheroid_points<S>(radius, half_length, q, angle);
+                    },
+                    elements, spacing);
+            }
+        }
+    }
+    std::ostringstream accepted;
+    accepted << "> " << narrowest << " for "
+             << (kind == SpheroidKind::prolate ? "a prolate shape" : "an oblate spheroid") << " of excess area "
+             << excess_area;
+    detail::require(narrowest < tube_radius, "tube radius", tube_radius, accepted.str().c_str());
+    return wanted;
+}
+
+}  // namespace axistokes

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// The velocity of the fluid around (and in) a membrane, on a grid of the meridian half-plane.
+#pragma once
+
+#include "../scene.hpp"
+
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+namespace axistokes {
+
+/// Grid of columns x rows nodes on 0 <= r <= radius, |z - centroid| <= half_length (in R0).
+template <class S>
+struct FlowGrid {
+    S radius = S(3);
+    S half_length = S(4);
+    Index columns = 61;
+    Index rows = 161;
+};
+
+/// Nodes in rows of equal z (index row * columns + column); z relative to the centroid, velocities in the laboratory
+/// frame.
+template <class S>
+struct FlowField {
+    FlowGrid<S> grid;
+    Meridian<S> points;
+    Vector<S> velocity_r;
+    Vector<S> velocity_z;
+    std::vector<bool> inside;  // the membrane
+};
+
+namespace detail {
+
+template <class S>
+FlowGrid<S> checked(FlowGrid<S> grid) {
+    using std::isfinite;
+    require(grid.radius > S(0) && isfinite(grid.radius), "radius of the flow grid", grid.radius, "> 0 and finite");
+    require(grid.half_length > S(0) && isfinite(grid.half_length), "half length of the flow grid", grid.half_length,
+            "> 0 and finite");
+    require(grid.columns >= 2 && grid.columns <= 10000, "columns of the flow grid", grid.columns, "in [2, 10000]");
+    require(grid.rows >= 2 && grid.rows <= 10000, "rows of the flow grid", grid.rows, "in [2, 10000]");
+    return grid;
+}
+
+/// Whether a point is enclosed by the elements of a meridian and the axis: counts the crossings of the ray r ->
+/// infinity.
+template <class S>
+bool encloses(const Meridian<S>& meridian, const Point<S>& x) {
+    bool inside = false;
+    for (Index e = 0; e < meridian.elements(); ++e) {
+        const S z1 = meridian.z[e];
+        const S z2 = meridian.z[e + 1];
+        if ((z1 > x.z) != (z2 > x.z)) {
+            const S t = (x.z - z1) / (z2 - z1);
+            inside ^= meridian.r[e] + t * (meridian.r[e + 1] - meridian.r[e]) > x.r;
+        }
+    }
+    return inside;
+}
+
+/// The node of a meridian at a point, where the kernel is singular, or -1.
+template <class S>
+Index node_at(const Meridian<S>& meridian, const Point<S>& x) {
+    using std::abs;
+    for (Index i = 0; i < meridian.nodes(); ++i) {
+        if (abs(meridian.r[i] - x.r) + abs(meridian.z[i] - x.z) < S(1e-6)) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+}  // namespace detail
+
+/// u = u_inf + G f at the grid's nodes, with the flow of a meshed wall; 0 beyond the wall. In a tube the grid ends
+/// there. Throws InvalidArgument when the grid is not positive, finite and of at least 2 x 2 nodes.
+template <class SceneType, class S, class Surface>
+FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configuration,
+                        const Instant<S, Surface>& instant, FlowGrid<S> grid = {}) {
+    const auto& kernel = scene.kernel();
+    if constexpr (requires { kernel.tube_radius(); }) {
+        grid.radius = kernel.tube_radius();
+    }
+    FlowField<S> field{detail::checked(grid), {}, {}, {}, {}};
+    const Index count = grid.columns * grid.rows;
+    field.points = {Vector<S>(count), Vector<S>(count)};
+    field.velocity_r.resize(count);
+    field.velocity_z.resize(count);
+    field.inside.resize(static_cast<std::size_t>(count));
+
+    // The uniform pressure in f moves nothing: without it, neither does its discretisation error.
+    const Surface& surface = instant.surface;
+    const Vector<S> normals = surface.normals();
+    const Vector<S>& total = instant.solution.force;
+    const Vector<S> force = total - (surface.flux(total) / surface.flux(normals)) * normals;
+
+    // A copy: evaluation may need a new mesh.
+    auto wall = scene.wall();
+    Meridian<S> particle = configuration.shape;
+    particle.z.array() += configuration.position;
+    const auto disturbance = [&] {
+        if constexpr (std::remove_cvref_t<decltype(wall)>::present) {
+            return [channel = wall.field(scene.discretization(), kernel, particle, force),
+                    z = configuration.position](Meridian<S> row) {
+                row.z.array() += z;
+                return channel.velocity(row);
+            };
+        } else {
+            return [&](const Meridian<S>& row) -> Vector<S> {
+                return scene.discretization().single_layer_at(row, configuration.shape, kernel) * force;
+            };
+        }
+    }();
+
+    // A row at a time: the matrix for all points would be large.
+    const Index n = grid.columns;
+    Meridian<S> row{Vector<S>::LinSpaced(n, S(0), grid.radius), Vector<S>(n)};
+    for (Index k = 0; k < grid.rows; ++k) {
+        row.z.setConstant(grid.half_length * (S(2 * k) / S(grid.rows - 1) - S(1)));
+        const Vector<S> velocity = disturbance(row);
+        for (Index i = 0; i < n; ++i) {
+            const Index node = k * n + i;
+            const Point<S> x{row.r[i], row.z[i]};
+            field.points.r[node] = x.r;
+            field.points.z[node] = x.z;
+            field.inside[static_cast<std::size_t>(node)] = detail::encloses(configuration.shape, x);
+            if (x.r >= scene.wall_radius(x.z + configuration.position)) {
+                field.velocity_r[node] = field.velocity_z[node] = S(0);
+                continue;
+            }
+            const Index on_membrane = detail::node_at(configuration.shape, x);
+            if (on_membrane >= 0) {
+                field.velocity_r[node] = instant.solution.velocity[on_membrane];
+                field.velocity_z[node] = instant.solution.velocity[configuration.shape.nodes() + on_membrane];
+                continue;
+            }
+            field.velocity_r[node] = velocity[i];
+            field.velocity_z[node] = velocity[n + i];
+            if constexpr (std::remove_cvref_t<decltype(scene.flow())>::has_flow) {
+                const Point<S> background = scene.flow().velocity({x.r, x.z + configuration.position});
+                field.velocity_r[node] += background.r;
+                field.velocity_z[node] += background.z;
+            }
+        }
+    }
+    return field;
+}
+
+}  // namespace axistokes

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Can a vesicle of given area and volume get through a channel at all? Neither can change, which bounds the throat.
+#pragma once
+
+#include "profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace axistokes {
+
+namespace detail {
+
+/// Root in (low, high) of an increasing function.
+template <class S, class Function>
+S increasing_root(S low, S high, const Function& function) {
+    for (int k = 0; k < std::numeric_limits<S>::digits + 4; ++k) {
+        const S middle = (low + high) / 2;
+        (function(middle) < S(0) ? low : high) = middle;
+    }
+    return high;
+}
+
+template <class S>
+void require_vesicle(const S& area, const S& volume) {
+    using std::cbrt;
+    require_positive("vesicle volume", volume);
+    const S radius = cbrt(3 * volume / (4 * pi_value<S>()));
+    const S least = 4 * pi_value<S>() * radius * radius;
+    require(area >= least * (S(1) - S(1e-6)), "vesicle area", area, "at least that of the sphere of equal volume");
+}
+
+}  // namespace detail
+
+/// Radius of the narrowest long tube that holds a vesicle of the given area and volume. It fills the tube as a cylinder
+/// with hemispherical ends, the shape of least area between parallel walls: of radius R and area A, that has the
+/// volume A R/2 - 2 pi R^3/3. Throws InvalidArgument if no surface of that area holds the volume.
+template <class S>
+S critical_tube_radius(const S& area, const S& volume) {
+    using std::sqrt;
+    detail::require_vesicle(area, volume);
+    const S pi = detail::pi_value<S>();
+    return detail::increasing_root<S>(S(0), sqrt(area / (4 * pi)),
+                                      [&](const S& r) { return S(area * r / 2 - 2 * pi * r * r * r / 3 - volume); });
+}
+
+/// Length of that cylinder with its ends: A = 2 pi R length.
+template <class S>
+S critical_tube_length(const S& area, const S& radius) {
+    return area / (2 * detail::pi_value<S>() * radius);
+}
+
+/// Radius of the smallest hole in a thin plate that lets a vesicle through: halfway it consists of two equal spherical
+/// caps that meet in the hole, whose area together must not exceed the vesicle's. 0 if any hole does.
+template <class S>
+S critical_orifice_radius(const S& area, const S& volume) {
+    using std::cbrt;
+    using std::sqrt;
+    detail::require_vesicle(area, volume);
+    const S pi = detail::pi_value<S>();
+    const S sphere = cbrt(3 * volume / (4 * pi));
+    // Caps of radius a >= hole: areas 2 pi a (a + h), volumes pi/3 (a + h)^2 (2 a - h), h = sqrt(a^2 - hole^2).
+    const auto least_area = [&](const S& hole) {
+        const auto height = [&](const S& a) { return S(sqrt((a - hole) * (a + hole))); };
+        const S a = detail::increasing_root<S>(hole, std::max(sphere, hole), [&](const S& radius) {
+            const S h = height(radius);
+            return S(2 * pi / 3 * (radius + h) * (radius + h) * (2 * radius - h) - volume);
+        });
+        return S(4 * pi * a * (a + height(a)));
+    };
+    if (least_area(S(0)) <= area) {
+        return S(0);
+    }
+    return detail::increasing_root<S>(S(0), sphere, [&](const S& hole) { return S(area - least_area(hole)); });
+}
+
+/// Throws InvalidArgument if a vesicle of the given area and volume cannot pass the channel, whatever the pressure: its
+/// throat is narrower than the critical orifice, or narrower than the critical tube over the length of the vesicle in
+/// it. (Between the two limits the answer depends on the profile.)
+template <ChannelProfile Profile>
+void require_passage(const Profile& profile, const typename Profile::Scalar& area,
+                     const typename Profile::Scalar& volume) {
+    using S = typename Profile::Scalar;
+    const S throat = narrowest_radius(profile);
+    const S tube = critical_tube_radius(area, volume);
+    const S orifice = critical_orifice_radius(area, volume);
+    const auto refuse = [&](const S& limit, const char* why) {
+        std::ostringstream accepted;
+        accepted << "larger than " << limit << ": " << why << " a vesicle of area " << area << " and volume " << volume;
+        detail::require(throat > limit, "throat radius", throat, accepted.str().c_str());
+    };
+    refuse(orifice, "no narrower hole lets through");
+    if (Profile::uniform) {
+        refuse(tube, "no narrower tube holds");
+        return;
+    }
+    constexpr int samples = 2000;
+    const S step = (profile.end() - profile.begin()) / S(samples);
+    S narrow = 0;
+    for (int i = 0; i <= samples; ++i) {
+        narrow = profile.radius(profile.begin() + step * S(i)) < tube ? narrow + step : S(0);
+        if (narrow > critical_tube_length(area, tube)) {
+            refuse(tube, "over the length of the throat, no narrower tube holds");
+        }
+    }
+}
+
+}  // namespace axistokes

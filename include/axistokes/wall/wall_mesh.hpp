@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// A wall of unknown tractions around the particle, on a mesh of its own (a policy for the wall; docs/wall_mesh.md).
+//
+// With q the force density on the boundary W of a finite piece of the channel, f that on the particle P and g the
+// velocity given on W,
+//   A q + B f = g  on W,      u = C q + G f  on P,
+// where A, B, C, G are the single layers W -> W, P -> W, W -> P, P -> P. Eliminating q,
+//   u = C A^-1 g + (G - C A^-1 B) f.
+// A depends on the mesh alone and is factored once for it. A n = 0 (a uniform pressure moves nothing), and A creates no
+// flux: A + n (dA n)^T / |W| has both properties the other way round and the solution whose normal part has zero mean.
+#pragma once
+
+#include "../concepts.hpp"
+#include "channel_field.hpp"
+#include "channel_mesh.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace axistokes {
+
+template <ChannelProfile Profile>
+class WallMesh {
+  public:
+    using Scalar = typename Profile::Scalar;
+    using Params = WallMeshParams<Scalar>;
+    using Mesh = ChannelMesh<Profile>;
+    static constexpr bool present = true;
+
+    /// Throws InvalidArgument when a parameter is out of range or the profile's radius is somewhere not positive and
+    /// finite.
+    explicit WallMesh(Profile profile, Params params = {})
+        : profile_(std::move(profile)), params_(params), narrowest_(narrowest_radius(profile_)) {
+        detail::validate(params);
+    }
+
+    const Profile& profile() const { return profile_; }
+    const Params& params() const { return params_; }
+    Scalar radius(const Scalar& z) const { return Mesh::channel_radius(profile_, z); }
+
+    /// Velocity on the axis of Poiseuille flow in a tube as wide as the channel is at z.
+    Scalar centreline_velocity(const Scalar& z) const { return peak_velocity(radius(z)); }
+    /// That at the narrowest place.
+    Scalar velocity_scale() const {
+        using std::abs;
+        return abs(peak_velocity(narrowest_));
+    }
+
+    /// The current mesh, if there is one yet.
+    const std::optional<Mesh>& mesh() const { return mesh_; }
+    /// How many meshes there have been: one, until the particle moves away from where the mesh is fine.
+    Index meshes() const { return meshes_; }
+
+    /// The particle's mobility and background velocity in the presence of the wall, from those without it.
+    /// Throws SimulationFailure when a node of the particle is not inside the wall.
+    template <class Discretization, class Kernel>
+    requires(!ConfiningKernel<Kernel>) void confine(const Discretization& discretization, const Kernel& kernel,
+                                                    const Meridian<Scalar>& particle, Matrix<Scalar>& mobility,
+                                                    Vector<Scalar>& background) {
+        const Meridian<Scalar> local = prepare(kernel, particle);
+        const Matrix<Scalar> to_particle = mesh_->curve().single_layer_at(local, kernel);
+        const Matrix<Scalar> to_wall = discretization.single_layer_at(mesh_->curve().nodes(), local, kernel);
+        mobility -= to_particle * lu_.solve(to_wall);
+        unit_flow_ = to_particle * unit_traction_;
+        background += params_.flow_rate * unit_flow_;
+    }
+
+    /// What the force density on the particle that was confined last adds to the pressure drop from the lower to the
+    /// upper end (upstream minus downstream for a positive flow rate): -Int f . u dA, u the undisturbed flow of flow
+    /// rate 1 (reciprocal theorem).
+    template <class Surface>
+    Scalar pressure_drop(const Surface& surface, const Vector<Scalar>& force) const {
+        const Index n = surface.size();
+        return -surface.weight.dot(
+            (unit_flow_.head(n).cwiseProduct(force.head(n)) + unit_flow_.tail(n).cwiseProduct(force.tail(n))).eval());
+    }
+
+    /// The flow with a given force density on a particle, for evaluation anywhere in the channel.
+    template <class Discretization, class Kernel>
+    requires(!ConfiningKernel<Kernel>) ChannelField<Discretization, Kernel> field(const Discretization& discretization,
+                                                                                  const Kernel& kernel,
+                                                                                  const Meridian<Scalar>& particle,
+                                                                                  const Vector<Scalar>& force) {
+        const Meridian<Scalar> local = prepare(kernel, particle);
+        const Matrix<Scalar> to_wall = discretization.single_layer_at(mesh_->curve().nodes(), local, kernel);
+        const Vector<Scalar> traction = params_.flow_rate * unit_traction_ - lu_.solve(to_wall * force);
+        return {discretization, kernel, mesh_->curve(), traction, local, force, centre(particle)};
+    }
+
+    /// The empty channel's flow of flow rate 1, on the current mesh.
+    template <class Discretization, class Kernel>
+    ChannelField<Discretization, Kernel> unit_field(const Discretization& discretization, const Kernel& kernel,
+                                                    const Meridian<Scalar>& particle) {
+        const Meridian<Scalar> local = prepare(kernel, particle);
+        return {discretization,  kernel, mesh_->curve(), unit_traction_, local, Vector<Scalar>::Zero(2 * local.nodes()),
+                centre(particle)};
+    }
+
+  private:
+    Scalar peak_velocity(const Scalar& radius) const {
+        return 2 * params_.flow_rate / (detail::pi_value<Scalar>() * radius * radius);
+    }
+
+    /// A straight tube's mesh goes with the particle.
+    static Scalar centre(const Meridian<Scalar>& particle) {
+        return Profile::uniform ? Scalar((particle.z.minCoeff() + particle.z.maxCoeff()) / 2) : Scalar(0);
+    }
+
+    /// The particle in the mesh's coordinates, after making sure that there is a mesh for it.
+    template <class Kernel>
+    Meridian<Scalar> prepare(const Kernel& kernel, const Meridian<Scalar>& particle) {
+        Meridian<Scalar> local = particle;
+        local.z.array() -= centre(particle);
+        for (Index i = 0; i < local.nodes(); ++i) {
+            if (!(local.r[i] < radius(local.z[i]))) {
+                throw SimulationFailure("the particle crosses the wall at node " + std::to_string(i));
+            }
+        }
+        if (!mesh_ || !mesh_->suits(local)) {
+            mesh_.emplace(profile_, params_, local);
+            ++meshes_;
+            const PanelCurve<Scalar>& curve = mesh_->curve();
+            const Vector<Scalar> normals = curve.normals();
+            const Vector<Scalar> weights = curve.weights();
+            Vector<Scalar> flux(2 * curve.size());
+            flux << weights, weights;
+            flux.array() *= normals.array() / weights.sum();
+            Matrix<Scalar> system = curve.single_layer(kernel);
+            system.noalias() += normals * flux.transpose();
+            lu_.compute(system);
+            unit_traction_ = lu_.solve(mesh_->boundary_velocity());
+            if (!unit_traction_.allFinite()) {
+                throw SimulationFailure("wall mesh: the matrix is singular or not finite");
+            }
+        }
+        return local;
+    }
+
+    Profile profile_;
+    Params params_;
+    Scalar narrowest_;
+    std::optional<Mesh> mesh_;
+    Eigen::PartialPivLU<Matrix<Scalar>> lu_;
+    Vector<Scalar> unit_traction_;  // of the empty channel at flow rate 1
+    Vector<Scalar> unit_flow_;      // at the particle confined last
+    Index meshes_ = 0;
+};
+
+}  // namespace axistokes

@@ -1,0 +1,3 @@
+// includes: core
+// omits: special/elliptic
+#include <axistokes/kernel/free_space.hpp>

@@ -1,0 +1,3 @@
+// includes: membrane
+// omits: bessel
+#include <axistokes/kernel/free_space.hpp>
