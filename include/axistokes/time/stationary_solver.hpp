@@ -108,8 +108,12 @@ requires(SceneType::deformable) class StationarySolver {
                 learned += missed * step.transpose() / step.squaredNorm();
             }
             if (usable && trial.residual <= params_.allowed_increase * point.residual) {
+                // As long as the iteration converges well, what it has learned is cheaper than a new Jacobian.
+                const bool renew = moved || !(trial.residual < point.residual / 3);
                 point = std::move(trial);
-                frozen = detail::frozen_jacobian(scene_, point.frozen, point.configuration, point.instant);
+                if (renew) {
+                    frozen = detail::frozen_jacobian(scene_, point.frozen, point.configuration, point.instant);
+                }
                 limit = std::min(params_.largest_displacement, Scalar(2 * limit));
             } else {
                 limit = std::min(limit, length) / 4;
