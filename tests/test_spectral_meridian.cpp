@@ -438,6 +438,8 @@ TEST_CASE("A sphere in a tube", "[spectral]") {
     const double bohlin = 1 - 0.210443 + 2.08877e-3 - 0.94813e-5;
     CHECK(std::abs(1 / drag(spectral, 0.1, 16) - bohlin) < 1e-5);
     const double fine = drag(spectral, 0.5, 24);
+    // Haberman & Sayre's series in 30 digits.
+    CHECK(std::abs(fine - 5.94737425) < 6e-9);
     CHECK(std::abs(drag(spectral, 0.5, 12) / fine - 1) < 1e-9);
     CHECK(std::abs(drag(spectral, 0.9, 24) / drag(spectral, 0.9, 40) - 1) < 1e-6);
     // P1 errs by O(h^2).
