@@ -21,8 +21,10 @@ execute_process(
   COMMAND ${COMPILER} -std=c++20 -M ${flags} ${SOURCE}
   OUTPUT_VARIABLE output
   COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX MATCHALL "/include/axistokes/[a-z_/]+[.]hpp" headers "${output}")
+string(REGEX MATCHALL "/include/axistokes/[a-z_/.]+[.]hpp" headers "${output}")
 list(TRANSFORM headers REPLACE "^/include/" "")
+# clang++ prints axistokes/kernel/../special/elliptic.hpp.
+list(TRANSFORM headers REPLACE "[a-z_]+/[.][.]/" "")
 list(JOIN headers " " headers)
 message("${headers}")
 

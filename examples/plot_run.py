@@ -23,7 +23,7 @@ TIME = r"$\eta R_0^3/\kappa$"
 plt.rcParams.update({
     "font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9, "legend.fontsize": 8, "mathtext.fontset": "dejavusans",
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.25, "lines.linewidth": 1.5,
-    "savefig.dpi": 110,
+    "savefig.dpi": 90,
 })
 
 
@@ -43,7 +43,7 @@ def read_run(directory):
 
 
 def read_flow(path):
-    """x, z, and the velocity relative to the centroid, on the grid of a flow.vts file; None if there is no such file."""
+    """x, z, and the axial velocity relative to the centroid, on the grid of a flow.vts file; None without the file."""
     if not path.exists():
         return None
     piece = ElementTree.parse(path).getroot().find("StructuredGrid/Piece")
@@ -56,7 +56,7 @@ def read_flow(path):
 
     points = array("Points", "Points")
     velocity = array("PointData", "relative_velocity")
-    return points[0, :, 0], points[:, 0, 2], velocity[..., 0], velocity[..., 2]
+    return points[0, :, 0], points[:, 0, 2], velocity[..., 2]
 
 
 def cross_section(shape):
@@ -104,12 +104,27 @@ def frame_shape(axes, shapes, summary, margin):
     axes.set_ylabel(r"$(z - z_c)/R_0$")
 
 
+def draw_streamlines(axes, reach, x, z, w):
+    """Contours of the stream function Int w r dr, in the frame of the centroid; symmetric, as the flow is."""
+    visible = (x >= 0) & (x <= reach + x[1] - x[0])
+    r = x[visible]
+    integrand = w[:, visible] * r
+    psi = np.zeros_like(integrand)
+    psi[:, 1:] = np.cumsum((integrand[:, 1:] + integrand[:, :-1]) / 2 * np.diff(r), axis=1)
+    scale = np.max(np.abs(psi))
+    backflow = min(np.max(psi), -np.min(psi)) > 0.01 * scale
+    # Without backflow psi grows with the square of the radius, far from the vesicle.
+    levels = scale * np.linspace(0, 1, 13 if backflow else 15)[1:] ** (1 if backflow else 2)
+    levels = np.concatenate([-levels[::-1], levels])
+    for side in (-1, 1):
+        axes.contour(side * r, z, psi, levels=levels, colors="0.72", linewidths=0.7, linestyles="solid", zorder=1)
+
+
 def draw_shape(figure, axes, summary, shape, flow):
     axes.grid(False)
     x, z = cross_section(shape)
     if flow is not None:
-        gx, gz, u, w = flow
-        axes.streamplot(gx, gz, u, w, color="0.72", linewidth=0.7, arrowsize=0.7, density=1.2, zorder=1)
+        draw_streamlines(axes, np.max(shape["r"]) + 0.75, *flow)
     axes.fill(x, z, color="#fbe9d9", zorder=2)
     if "tension" in shape:
         tension = np.append(shape["tension"], shape["tension"][::-1])
@@ -204,7 +219,7 @@ def plot_run(directory):
     if "failure" in summary:
         figure.supxlabel("failed: " + summary["failure"], color="#b00020", fontsize=9, wrap=True)
     path = pathlib.Path(directory) / "summary.png"
-    figure.savefig(path)
+    figure.savefig(path, pil_kwargs={"optimize": True})
     return path
 
 
@@ -221,7 +236,7 @@ def compare(directories, path, labels):
     frame_shape(axes, [shape for _, shape, _ in runs], runs[0][0], 0.25)
     draw_drive(axes, runs[0][0])
     axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1.02, 0.5))
-    figure.savefig(path)
+    figure.savefig(path, pil_kwargs={"optimize": True})
     return path
 
 

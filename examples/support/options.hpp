@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace examples {
 
@@ -23,15 +24,19 @@ struct RunOptions {
     std::string directory;
     bool vtk = false;
     bool flow_field = false;
+    std::vector<double> frame_times;
 
     void add_to(CLI::App& app) {
         add_number(app, "--elements", elements, "elements on the meridian");
         add_number(app, "--tolerance", tolerance, "stationary when the residual is below this");
         add_output_to(app);
-        // CLI11 2.1 has no std::optional with a validator of its own.
-        add_optional(app, "--dt", time_step, "fixed time step (default: automatic)");
-        add_optional(app, "--time", time, "stop at this time, stationary or not");
-        add_optional(app, "--max-steps", steps, "stop after this many steps, stationary or not");
+        add_number(app, "--dt", time_step, "fixed time step (default: automatic)");
+        add_number(app, "--time", time, "stop at this time, stationary or not");
+        add_number(app, "--max-steps", steps, "stop after this many steps, stationary or not");
+        app.add_option("--frame-times", frame_times,
+                       "t1,t2,...: also write frames.csv, the first shape at or after each of these times")
+            ->delimiter(',')
+            ->check(number_check<double>("--frame-times"));
     }
 
     void add_output_to(CLI::App& app) {
@@ -49,14 +54,6 @@ struct RunOptions {
         params.longest_time = time.value_or(params.longest_time);
         params.most_steps = steps.value_or(params.most_steps);
         return params;
-    }
-
-  private:
-    template <class Number>
-    static void add_optional(CLI::App& app, const std::string& name, std::optional<Number>& value,
-                             const std::string& description) {
-        add_number(app, name, value.emplace(), description)->default_str("");
-        value.reset();
     }
 };
 

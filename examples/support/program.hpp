@@ -10,6 +10,7 @@
 #include <charconv>
 #include <exception>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -17,21 +18,31 @@ namespace examples {
 
 enum ExitCode { success = 0, internal_error = 1, bad_input = 2, simulation_failure = 3, interrupted = 130 };
 
-/// An option for a number. Text that is not a number is reported as `--name = text: must be ...`; the range is left to
-/// whoever uses the number.
 template <class Number>
-CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value, const std::string& description) {
+CLI::Validator number_check(const std::string& name) {
     const auto parse = [name](const std::string& text) {
         Number parsed{};
         const bool sign = text.size() > 1 && text[0] == '+' && text[1] != '-';
         const auto result = std::from_chars(text.data() + (sign ? 1 : 0), text.data() + text.size(), parsed);
         const bool number = result.ec == std::errc() && result.ptr == text.data() + text.size();
-        axistokes::detail::require(
-            number, name.c_str(), text,
-            std::is_integral_v<Number> ? "a whole number" : "a number that double precision can represent");
+        axistokes::detail::require(number, name.c_str(), text,
+                                   std::is_integral_v<Number> ? "a whole number" : "a number within double's range");
         return std::string();
     };
-    return app.add_option(name, value, description)->check(CLI::Validator(parse, ""))->capture_default_str();
+    return CLI::Validator(parse, "");
+}
+
+/// An option for a number. Text that is not a number is reported as `--name = text: must be ...`; the range is left to
+/// whoever uses the number.
+template <class Number>
+CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value, const std::string& description) {
+    return app.add_option(name, value, description)->check(number_check<Number>(name))->capture_default_str();
+}
+/// The same without a default value.
+template <class Number>
+CLI::Option* add_number(CLI::App& app, const std::string& name, std::optional<Number>& value,
+                        const std::string& description) {
+    return app.add_option(name, value, description)->check(number_check<Number>(name));
 }
 
 /// Exit code of the example called `name`, whose `run()` returns one and is called once the options have their values.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The result of a run in a few numbers: as JSON (docs/output.md explains the keys) and on the screen.
+// The result of a run in a few numbers: as JSON and on the screen.
 #pragma once
 
 #include <axistokes/geometry/curvature.hpp>

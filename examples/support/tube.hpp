@@ -14,9 +14,7 @@ struct TubeOptions {
     std::optional<double> confinement;
 
     void add_to(CLI::App& app, const std::string& without) {
-        add_number(app, "--confinement", confinement.emplace(), "R0 over the tube's radius; without it " + without)
-            ->default_str("");
-        confinement.reset();
+        add_number(app, "--confinement", confinement, "R0 over the tube's radius; without it " + without);
     }
 
     double radius() const {
@@ -35,7 +33,7 @@ struct TubeOptions {
 /// the mobility.
 template <class Simulator>
 nlohmann::ordered_json tube_summary(const Simulator& simulator, double mean_velocity) {
-    const double radius = simulator.scene().kernel().tube_radius();
+    const double radius = simulator.scene().wall_radius(0);
     nlohmann::ordered_json summary{{"tube_radius", radius}, {"confinement", 1 / radius}};
     const auto film = simulator.scene().film_thickness(simulator.configuration());
     summary["film_thickness_min"] = film.min;

@@ -36,6 +36,10 @@ struct KernelBlock {
     S rz{};
     S zr{};
     S zz{};
+
+    friend KernelBlock operator+(const KernelBlock& a, const KernelBlock& b) {
+        return {a.rr + b.rr, a.rz + b.rz, a.zr + b.zr, a.zz + b.zz};
+    }
 };
 
 /// Views of four arrays of equal length that receive kernel entries, one per source point.

@@ -6,6 +6,7 @@
 #include "../simulator.hpp"
 #include "atomic_file.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -70,7 +71,8 @@ std::vector<Column<S>> shape_columns(const Configuration<S>& configuration, cons
     return columns;
 }
 
-/// One row a time step, in the order and with the meaning of StepRecord.
+/// One row a time step, in the order and with the meaning of StepRecord; the columns of a
+/// confined scene only if there is a wall.
 template <class S>
 std::vector<Column<S>> history_columns(const std::vector<StepRecord<S>>& history) {
     std::vector<Column<S>> columns;
@@ -97,6 +99,11 @@ std::vector<Column<S>> history_columns(const std::vector<StepRecord<S>>& history
     add("volume_error", &Record::volume_error);
     add("bending_energy", &Record::bending_energy);
     add("residual", &Record::residual);
+    if (!history.empty() && std::isfinite(static_cast<double>(history.back().film_thickness_min))) {
+        add("film_thickness_min", &Record::film_thickness_min);
+        add("film_thickness_mean", &Record::film_thickness_mean);
+        add("pressure_drop", &Record::pressure_drop);
+    }
     add("rejected", &Record::rejected);
     add("redistributed", &Record::redistributed);
     return columns;

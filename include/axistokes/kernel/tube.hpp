@@ -49,11 +49,13 @@ class TubeSpectrum {
     /// `closest`, `furthest`: bounds of |z - z0|; `gap`: least sum of the two points' distances to the wall.
     TubeSpectrum(const S& tube_radius, double closest, double furthest, double gap, double eps)
         : tube_radius_(tube_radius) {
-        const double radius = static_cast<double>(tube_radius);
-        // (1 + y/2)^2 e^(-y) / y is what the modes of a pair with zeta gap = y can amount to.
+        const auto radius = static_cast<double>(tube_radius);
+        // (1 + y/2)^2 e^(-y) / y is what the modes of a pair with zeta gap = y can amount to; the tail, the first panel
+        // and the others share the tolerance.
+        eps /= 4;
         double y = std::log(1 / eps);
         for (int i = 0; i < 20; ++i) {
-            y = std::log(1 / eps) + 2 * std::log(1 + y / 2) - std::log(y) + 1;
+            y = std::log(1 / eps) + 2 * std::log(1 + y / 2) - std::log(y);
         }
         // Zeros of the determinant, the tube's eigenvalues: the first at zeta Rc = +-1.467 + 4.466 i, the others
         // beyond, between the directions of that one and of the imaginary axis.
@@ -194,9 +196,7 @@ class TubeKernel : public FreeSpaceKernel<S> {
 
     /// Free space plus correction: M_T(target, source).
     KernelBlock<S> total(const Point<S>& target, const Point<S>& source) const {
-        const KernelBlock<S> a = this->singular(target, source);
-        const KernelBlock<S> b = correction(target, source);
-        return {a.rr + b.rr, a.rz + b.rz, a.zr + b.zr, a.zz + b.zz};
+        return this->singular(target, source) + correction(target, source);
     }
 
     /// out += M_c integrated over the sources, 2 targets x 2 nodes, stacked [r; z]. `quadrature(distance)` is a
@@ -220,10 +220,7 @@ class TubeKernel : public FreeSpaceKernel<S> {
         return -2 * sum / area;
     }
 
-  private:
-    using Assembly = detail::TubeAssembly<S, TubeKernel>;
-    friend Assembly;
-
+  protected:
     S gap(const S& r, const char* what) const {
         detail::require(r >= S(0) && r <= tube_radius_, what, r, "in [0, tube radius]");
         return tube_radius_ - r;
@@ -231,6 +228,10 @@ class TubeKernel : public FreeSpaceKernel<S> {
     static void require_clear(const S& gap) {
         detail::require(gap > S(0), "sum of the distances of target and source to the wall", gap, "> 0");
     }
+
+  private:
+    using Assembly = detail::TubeAssembly<S, TubeKernel>;
+    friend Assembly;
 
     /// Adds Re or Im of u s exp(i zeta |zh|).
     template <class C>

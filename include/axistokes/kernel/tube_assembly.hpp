@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace axistokes {
-
-namespace detail {
+namespace axistokes::detail {
 
 /// Factors of all points of a batch, slab by slab. A point's two velocity components are two rows; a wave number is
 /// four columns, (P, Q) x (cos, sin) or (P, Q) x (Re, Im), so arranged that -out is the product of target and source
@@ -299,5 +297,4 @@ class TubeAssembly {
     std::vector<std::vector<Index>> target_slabs_;
 };
 
-}  // namespace detail
-}  // namespace axistokes
+}  // namespace axistokes::detail

@@ -53,7 +53,7 @@ class ElementRules {
     /// A rule of p nodes reaches the tolerance when the target is no closer than half an element (a = sqrt 2 at least).
     static Index largest_order(const S& tolerance) {
         using std::log;
-        const double digits = static_cast<double>(log(S(1) / tolerance));
+        const auto digits = static_cast<double>(log(S(1) / tolerance));
         return std::max<Index>(4, 2 * static_cast<Index>(std::ceil(digits / (4 * std::log(1.0 + std::sqrt(2.0))))) + 4);
     }
 
