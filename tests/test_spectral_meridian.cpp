@@ -4,6 +4,8 @@
 #include "catch.hpp"
 #include <axistokes/axistokes.hpp>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <boost/math/differentiation/autodiff.hpp>
 
 #include <array>
@@ -300,6 +302,33 @@ TEST_CASE("A pressure moves nothing, and exchanging forces leaves the power", "[
     CHECK(std::abs(there - back) < 1e-12);
 }
 
+TEST_CASE("Bending dissipates, and every tension acts", "[spectral]") {
+    double before = 0;
+    for (const Index n : {12, 24}) {
+        for (const bool flat : {false, true}) {
+            const Meridian<double> m = flat ? biconcave(0.3, n) : ellipse(0.9, 1.3, n);
+            const SpectralMeridian<double> spectral;
+            const auto surface = spectral.surface(m);
+            Mat g = spectral.single_layer(m, FreeSpaceKernel<double>());
+            detail::complete_rank<double>(surface, g);
+            const Mat schur = surface.divergence * g * surface.tension_force;
+            const double smallest = Eigen::JacobiSVD<Mat>(schur).singularValues()[n - 1];
+            const Mat bending = g * Vesicle<double>::bending_operator(surface);
+            const Mat rate =
+                bending - g * surface.tension_force * schur.partialPivLu().solve(surface.divergence * bending);
+            const auto eigenvalues = Eigen::EigenSolver<Mat>(rate, false).eigenvalues();
+            CAPTURE(n, flat, smallest);
+            CHECK(eigenvalues.real().maxCoeff() < 1e-6 * eigenvalues.cwiseAbs().maxCoeff());
+            CHECK(eigenvalues.real().minCoeff() < -100);
+            if (!flat) {
+                CHECK(smallest > 0.9 * before);
+                before = smallest;
+            }
+        }
+    }
+    CHECK(before > 1e-3);
+}
+
 TEST_CASE("Membranes close to themselves", "[spectral]") {
     // Sides 0.01 apart: against four times the modes, and against P1 elements.
     const Index n = 24;
@@ -438,6 +467,8 @@ TEST_CASE("A sphere in a tube", "[spectral]") {
     const double bohlin = 1 - 0.210443 + 2.08877e-3 - 0.94813e-5;
     CHECK(std::abs(1 / drag(spectral, 0.1, 16) - bohlin) < 1e-5);
     const double fine = drag(spectral, 0.5, 24);
+    // Haberman & Sayre's series in 30 digits.
+    CHECK(std::abs(fine - 5.94737425) < 6e-9);
     CHECK(std::abs(drag(spectral, 0.5, 12) / fine - 1) < 1e-9);
     CHECK(std::abs(drag(spectral, 0.9, 24) / drag(spectral, 0.9, 40) - 1) < 1e-6);
     // P1 errs by O(h^2).
