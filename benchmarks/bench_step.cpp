@@ -25,6 +25,24 @@ void single_layer(benchmark::State& state) {
     state.SetComplexityN(state.range(0));
 }
 
+void spectral_single_layer(benchmark::State& state) {
+    const Meridian<double> shape = pear_to_be(state);
+    SpectralMeridian<double>::Params params;
+    params.tolerance = std::pow(10.0, -static_cast<double>(state.range(1)));
+    const SpectralMeridian<double> spectral(params);
+    const FreeSpaceKernel<double> kernel;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(spectral.single_layer(shape, kernel));
+    }
+}
+
+void spectral_surface_operators(benchmark::State& state) {
+    const Meridian<double> shape = pear_to_be(state);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(spectral_surface(shape));
+    }
+}
+
 void surface_operators(benchmark::State& state) {
     const Meridian<double> shape = pear_to_be(state);
     for (auto _ : state) {
@@ -50,6 +68,8 @@ constexpr std::initializer_list<std::int64_t> kElements{32, 64, 130, 260};
 }  // namespace
 
 BENCHMARK(single_layer)->ArgsProduct({kElements, {6, 8, 12}})->Unit(benchmark::kMillisecond);
+BENCHMARK(spectral_single_layer)->ArgsProduct({{16, 24, 32, 48, 64, 96}, {6, 10}})->Unit(benchmark::kMillisecond);
+BENCHMARK(spectral_surface_operators)->ArgsProduct({{16, 24, 32, 48, 64, 96}})->Unit(benchmark::kMillisecond);
 BENCHMARK(surface_operators)->ArgsProduct({kElements})->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(time_step, SemiImplicitEuler, DenseLU<double>)
     ->ArgsProduct({kElements})

@@ -6,15 +6,11 @@
 #include <axistokes/axistokes.hpp>
 
 #include <cmath>
-#include <numbers>
+#include <string>
 
 namespace {
 
 using namespace axistokes;
-
-template <class Flow>
-using SphereInTube =
-    Simulator<TubeKernel<double>, LinearElements<double>, RigidBody<double>, Flow, ExplicitEuler, DenseLU<double>>;
 
 /// Angle from the equator, -pi/2 at the lower pole (upwind in a flow along +z), and the traction jump there, which a
 /// rigid body leaves undetermined up to a multiple of the normal: the mean normal part is zero.
@@ -34,23 +30,42 @@ void write_traction(const examples::RunOptions& run, const InstantType& instant)
               std::vector<Column<double>>{{"angle", angle}, {"f_r", force.head(n)}, {"f_z", force.tail(n)}});
 }
 
-/// `flow` drives the sphere with a typical velocity 1; `result(instant)` gives the keys that depend on it.
-template <class Flow, class Result>
-int solve(const examples::RunOptions& run, double tube_radius, double tolerance, const Flow& flow,
-          const Result& result) {
+struct Case {
+    examples::RunOptions run;
+    double radius;
+    double tolerance;
+    std::string method;
+};
+
+template <class Kernel, class Flow, class Wall = NoWall, class Result>
+int solve(const Case& c, const Kernel& kernel, const Flow& flow, const Result& result, const Wall& wall = {}) {
+    using Sphere =
+        Simulator<Kernel, LinearElements<double>, RigidBody<double>, Flow, ExplicitEuler, DenseLU<double>, Wall>;
     LinearElements<double>::Params elements;
-    elements.tolerance = tolerance;
-    TubeKernel<double>::Params kernel;
-    kernel.tolerance = tolerance;
-    SphereInTube<Flow> simulator(sphere<double>(run.elements), flow, run.params(),
-                                 TubeKernel<double>(tube_radius, kernel), LinearElements<double>(elements));
-    return examples::run_to_end(simulator, run, {{"quadrature_tolerance", tolerance}},
+    elements.tolerance = c.tolerance;
+    Sphere simulator(sphere<double>(c.run.elements), flow, c.run.params(), kernel, LinearElements<double>(elements), {},
+                     {}, {}, wall);
+    return examples::run_to_end(simulator, c.run, {{"method", c.method}, {"tolerance", c.tolerance}},
                                 [&](const auto& s, const auto& instant) {
-                                    write_traction(run, instant);
+                                    write_traction(c.run, instant);
                                     nlohmann::ordered_json summary = examples::tube_summary(s, 0);
                                     summary.update(result(instant));
                                     return summary;
                                 });
+}
+
+/// `flow` drives the sphere with a typical velocity 1; `result(instant)` gives the keys that depend on it.
+template <class Flow, class Result>
+int solve(const Case& c, const Flow& flow, const Result& result) {
+    detail::require(c.method == "tube" || c.method == "wall", "method", c.method, "tube or wall");
+    if (c.method == "wall") {
+        WallMeshParams<double> wall;
+        wall.tolerance = c.tolerance;
+        return solve(c, FreeSpaceKernel<double>(), flow, result, WallMesh(StraightTube<double>(c.radius), wall));
+    }
+    TubeKernel<double>::Params kernel;
+    kernel.tolerance = c.tolerance;
+    return solve(c, TubeKernel<double>(c.radius, kernel), flow, result);
 }
 
 }  // namespace
@@ -60,11 +75,14 @@ int main(int argc, char** argv) {
     examples::RunOptions run;
     examples::TubeOptions tube;
     std::string flow = "none";
+    std::string method = "tube";
     double tolerance = 1e-8;
     tube.add_to(app, "0.5");
     examples::add_number(app, "--elements", run.elements, "elements on the meridian");
     app.add_option("--flow", flow, "none: it is dragged along; poiseuille: it floats freely")->capture_default_str();
-    examples::add_number(app, "--quadrature-tolerance", tolerance, "of the quadratures and of the tube kernel");
+    app.add_option("--method", method, "tube: the tube's Green function; wall: the free-space one and a meshed wall")
+        ->capture_default_str();
+    examples::add_number(app, "--tolerance", tolerance, "of the quadratures and of the tube kernel or the wall");
     run.add_output_to(app);
 
     return examples::run_program("sphere_in_tube", app, argc, argv, [&] {
@@ -72,15 +90,15 @@ int main(int argc, char** argv) {
         const double radius = tube.radius();
         detail::require(radius > 1, "confinement", *tube.confinement, "< 1, that is the sphere must fit into the tube");
         detail::require(flow == "none" || flow == "poiseuille", "flow", flow, "none or poiseuille");
+        const Case c{run, radius, tolerance, method};
         if (flow == "none") {
             // The weight of a sphere that settles at unit velocity in an unbounded fluid: U = -1/K.
-            return solve(run, radius, tolerance, Gravity<double>(4.5), [](const auto& instant) {
+            return solve(c, Gravity<double>(4.5), [](const auto& instant) {
                 return nlohmann::ordered_json{{"drag_factor", -1 / instant.velocity}};
             });
         }
-        return solve(run, radius, tolerance, Poiseuille<double>(1, radius), [](const auto& instant) {
-            return nlohmann::ordered_json{{"velocity_ratio", instant.velocity},
-                                          {"pressure_drop", instant.pressure_drop}};
+        return solve(c, Poiseuille<double>(1, radius), [](const auto& instant) {
+            return nlohmann::ordered_json{{"velocity_ratio", instant.velocity}};
         });
     });
 }

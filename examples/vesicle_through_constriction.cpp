@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A vesicle is carried through a channel that narrows to less than its rest radius.
+#include "support/frames.hpp"
 #include "support/program.hpp"
 #include "support/progress.hpp"
 #include <axistokes/axistokes.hpp>
@@ -67,27 +68,6 @@ struct Options {
     }
 };
 
-/// Shapes on the way, in the laboratory frame.
-struct Frames {
-    std::vector<double> frame, time, r, z;
-
-    void add(double at, const Meridian<double>& shape) {
-        const double next = frame.empty() ? 0 : frame.back() + 1;
-        for (Index i = 0; i < shape.nodes(); ++i) {
-            frame.push_back(next);
-            time.push_back(at);
-            r.push_back(shape.r[i]);
-            z.push_back(shape.z[i]);
-        }
-    }
-    std::vector<Column<double>> columns() const {
-        const auto vector = [](const std::vector<double>& v) {
-            return Vector<double>(Eigen::Map<const Vector<double>>(v.data(), static_cast<Index>(v.size())));
-        };
-        return {{"frame", vector(frame)}, {"time", vector(time)}, {"r", vector(r)}, {"z", vector(z)}};
-    }
-};
-
 template <class Profile>
 using Passage = Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, Quiescent<double>,
                           SemiImplicitEuler, DenseLU<double>, WallMesh<Profile>>;
@@ -141,7 +121,7 @@ int run(const Options& options, const Profile& profile) {
         create_output_directory(options.directory);
     }
 
-    Frames frames;
+    examples::Frames frames;
     std::vector<double> entered_or_left;
     double film = std::numeric_limits<double>::infinity();
     double drop = 0;

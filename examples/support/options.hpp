@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace examples {
 
@@ -23,6 +24,7 @@ struct RunOptions {
     std::string directory;
     bool vtk = false;
     bool flow_field = false;
+    std::vector<double> frame_times;
 
     void add_to(CLI::App& app) {
         add_number(app, "--elements", elements, "elements on the meridian");
@@ -31,6 +33,10 @@ struct RunOptions {
         add_number(app, "--dt", time_step, "fixed time step (default: automatic)");
         add_number(app, "--time", time, "stop at this time, stationary or not");
         add_number(app, "--max-steps", steps, "stop after this many steps, stationary or not");
+        app.add_option("--frame-times", frame_times,
+                       "t1,t2,...: also write frames.csv, the first shape at or after each of these times")
+            ->delimiter(',')
+            ->check(number_check<double>("--frame-times"));
     }
 
     void add_output_to(CLI::App& app) {

@@ -2,6 +2,7 @@
 // Runs a simulator to its end, whatever that is, and writes what there is to write.
 #pragma once
 
+#include "frames.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "summary.hpp"
@@ -18,7 +19,7 @@ namespace examples {
 /// Writes summary.json, shape.csv, history.csv and what else was asked for; nothing without a directory.
 template <class Simulator, class InstantType>
 void write_results(const Simulator& simulator, const std::optional<InstantType>& instant, const RunOptions& options,
-                   const nlohmann::ordered_json& summary) {
+                   const Frames& frames, const nlohmann::ordered_json& summary) {
     if (options.directory.empty()) {
         return;
     }
@@ -31,6 +32,9 @@ void write_results(const Simulator& simulator, const std::optional<InstantType>&
                 : std::vector<axistokes::Column<Scalar>>{{"r", configuration.shape.r}, {"z", configuration.shape.z}};
     axistokes::write_csv(directory / "shape.csv", shape);
     axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulator.history()));
+    if (!frames.empty()) {
+        axistokes::write_csv(directory / "frames.csv", frames.columns());
+    }
     if (options.vtk) {
         axistokes::write_vtk_surface(directory / "surface.vtp", shape);
     }
@@ -51,6 +55,8 @@ int run_to_end(Simulator& simulator, const RunOptions& options, const nlohmann::
     }
     const auto begin = std::chrono::steady_clock::now();
     Ending ending;
+    FramesAt kept(options.frame_times);
+    kept.visit(0, simulator);
     {
         const InterruptGuard guard;
         ProgressBar bar;
@@ -61,6 +67,7 @@ int run_to_end(Simulator& simulator, const RunOptions& options, const nlohmann::
                 static_cast<double>(record.step) / static_cast<double>(simulator.params().most_steps);
             std::ostringstream text;
             text << "step " << record.step << "  time " << record.time << "  residual " << record.residual;
+            kept.visit(record.time, simulator);
             bar.show(std::max({approach.fraction(record.residual), by_time, by_steps}), text.str());
             ending.interrupted = guard.interrupted();
             return !ending.interrupted;
@@ -84,7 +91,7 @@ int run_to_end(Simulator& simulator, const RunOptions& options, const nlohmann::
         summary.update(details(simulator, *instant));
     }
     summary["parameters"] = parameters;
-    write_results(simulator, instant, options, summary);
+    write_results(simulator, instant, options, kept.frames(), summary);
     print(summary, options.directory);
     if (!ending.failure.empty()) {
         throw axistokes::SimulationFailure(ending.failure);

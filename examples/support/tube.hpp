@@ -33,7 +33,7 @@ struct TubeOptions {
 /// the mobility.
 template <class Simulator>
 nlohmann::ordered_json tube_summary(const Simulator& simulator, double mean_velocity) {
-    const double radius = simulator.scene().kernel().tube_radius();
+    const double radius = simulator.scene().wall_radius(0);
     nlohmann::ordered_json summary{{"tube_radius", radius}, {"confinement", 1 / radius}};
     const auto film = simulator.scene().film_thickness(simulator.configuration());
     summary["film_thickness_min"] = film.min;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "discretization/linear_elements.hpp"
+#include "discretization/spectral_meridian.hpp"
 #include "flow/background.hpp"
 #include "geometry/tube_shapes.hpp"
 #include "io/csv.hpp"
@@ -18,6 +19,7 @@
 #include "time/explicit_euler.hpp"
 #include "time/extrapolated_euler.hpp"
 #include "time/semi_implicit_euler.hpp"
+#include "time/stationary_solver.hpp"
 #include "wall/passage.hpp"
 #include "wall/points_profile.hpp"
 #include "wall/wall_mesh.hpp"

@@ -151,6 +151,20 @@ class Scene {
         return velocity;
     }
 
+    /// Gravity's load is taken relative to the centroid: the rest is a uniform pressure.
+    Vector<Scalar> normal_load(const Configuration<Scalar>& configuration, const Surface& surface) const {
+        const Index n = configuration.shape.nodes();
+        Vector<Scalar> load = Vector<Scalar>::Zero(2 * n);
+        if constexpr (Flow::has_load) {
+            for (Index i = 0; i < n; ++i) {
+                const Scalar pressure = flow_.normal_load({configuration.shape.r[i], configuration.shape.z[i]});
+                load[i] = pressure * surface.normal_r[i];
+                load[n + i] = pressure * surface.normal_z[i];
+            }
+        }
+        return load;
+    }
+
     /// Undisturbed velocity on the axis at the centroid.
     Scalar centreline_velocity(const Scalar& position) const {
         Scalar velocity = 0;
@@ -215,20 +229,6 @@ class Scene {
             }
         }
         return largest;
-    }
-
-    /// Gravity's load is taken relative to the centroid: the rest is a uniform pressure.
-    Vector<Scalar> normal_load(const Configuration<Scalar>& configuration, const Surface& surface) const {
-        const Index n = configuration.shape.nodes();
-        Vector<Scalar> load = Vector<Scalar>::Zero(2 * n);
-        if constexpr (Flow::has_load) {
-            for (Index i = 0; i < n; ++i) {
-                const Scalar pressure = flow_.normal_load({configuration.shape.r[i], configuration.shape.z[i]});
-                load[i] = pressure * surface.normal_r[i];
-                load[n + i] = pressure * surface.normal_z[i];
-            }
-        }
-        return load;
     }
 
     Kernel kernel_;

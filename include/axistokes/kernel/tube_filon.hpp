@@ -2,8 +2,9 @@
 // The tube's correction as the paper computes it (Trozzo et al. 2015, section 2.3.2), pair by pair: a reference for
 // TubeKernel, which it is thousands of times slower than.
 //
-// The wave numbers are divided into four zones: [0, 1e-5/Rc] by Gauss-Legendre, which copes with the logarithm over so
-// short a stretch; two zones by Filon's rule, up to 2/Rc and up to where the integrand has decayed; the rest by
+// The zz integrand behaves like -8 log(zeta) at 0 for all points: 8 K0(zeta Rc) is subtracted and its transform,
+// 4 pi/sqrt(Rc^2 + zh^2), added (DLMF 10.43.21). The wave numbers are divided into four zones: [0, 1e-5/Rc] by
+// Gauss-Legendre; two zones by Filon's rule, up to 2/Rc and up to where the integrand has decayed; the rest by
 // Gauss-Laguerre. The points of Filon's rules are doubled until the result changes by less than the tolerance.
 #pragma once
 
@@ -31,8 +32,10 @@ class TubeFilonKernel : public TubeKernel<S> {
     KernelBlock<S> correction(const Point<S>& target, const Point<S>& source) const {
         using std::abs;
         using std::cos;
+        using std::exp;
         using std::log;
         using std::sin;
+        using std::sqrt;
         const S target_gap = this->gap(target.r, "target radius");
         const S source_gap = this->gap(source.r, "source radius");
         this->require_clear(target_gap + source_gap);
@@ -46,10 +49,13 @@ class TubeFilonKernel : public TubeKernel<S> {
             const auto entry = [&](const S& up, const S& uq, const S& vp, const S& vq) {
                 return S(c.pp * up * vp + c.pq * (up * vq + uq * vp) + c.qq * uq * vq);
             };
+            const S w = zeta * this->tube_radius();
+            const S regularisation = 8 * exp(-w) * scaled_bessel_k<S>(w).k0;
             return Values{entry(u.rp, u.rq, v.rp, v.rq), entry(u.rp, u.rq, v.zp, v.zq), entry(u.zp, u.zq, v.rp, v.rq),
-                          entry(u.zp, u.zq, v.zp, v.zq)};
+                          entry(u.zp, u.zq, v.zp, v.zq) - regularisation};
         };
         Values sum{};
+        sum[3] = 4 * detail::pi_value<S>() / sqrt(this->tube_radius() * this->tube_radius() + distance * distance);
         const auto add = [&](const S& zeta, const S& weight) {
             const Values f = integrand(zeta);
             const S c = weight * cos(zeta * distance);
@@ -62,7 +68,7 @@ class TubeFilonKernel : public TubeKernel<S> {
 
         const S first = S(1e-5) / this->tube_radius();
         const S second = 2 / this->tube_radius();
-        const S decay = target_gap + source_gap;
+        const S decay = std::min<S>(target_gap + source_gap, this->tube_radius());
         const S third = std::max<S>(2 * second, log(S(1) / this->params().tolerance) / decay);
         static const GaussLegendreRule<S> legendre = gauss_legendre<S>(16);
         static const GaussLaguerreRule<S> laguerre = gauss_laguerre<S>(16);
@@ -76,7 +82,6 @@ class TubeFilonKernel : public TubeKernel<S> {
             }
         }
         for (Index q = 0; q < laguerre.nodes.size(); ++q) {
-            using std::exp;
             add(third + laguerre.nodes[q] / decay, laguerre.weights[q] * exp(laguerre.nodes[q]) / decay);
         }
         const S sign = source.z < target.z ? S(-1) : S(1);

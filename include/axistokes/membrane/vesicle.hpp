@@ -52,10 +52,16 @@ class Vesicle {
         return surface.along_normal(scalar);
     }
 
+    /// Bending and tension force density on `surface`, stacked.
+    template <class Surface>
+    static Vector<S> force(const Surface& surface, const Vector<S>& tension) {
+        return bending_operator(surface) * surface.positions() + surface.tension_force * tension;
+    }
+
     /// Velocities, forces and tension of a vesicle. The unknowns are (u, gamma) of
     ///   u - t G F u - G T gamma = u_inf + G (F x + load),    D u = 0,
     /// with t = problem.implicit_time, F the bending operator and T, D the tension force and the divergence. Tension
-    /// also resists the curvature created during the step, at its previous value, where it is positive.
+    /// also resists the curvature created during the step, at its previous value, as far as that is positive.
     template <class Surface, class Solver>
     MobilitySolution<S> solve(const MobilityProblem<S, Surface>& problem, Solver& solver) const {
         using Operator = typename Surface::Operator;
@@ -70,7 +76,7 @@ class Vesicle {
         const Operator bending = bending_operator(surface);
         Operator implicit = bending;
         if (problem.tension.size() == tensions) {
-            const Vector<S> pull = -2 * surface.at_nodes(problem.tension).cwiseMax(S(0));
+            const Vector<S> pull = -2 * positive_part(surface.at_nodes(problem.tension));
             implicit += surface.along_normal(Operator(pull.asDiagonal() * surface.mean_curvature_of));
         }
 
@@ -115,6 +121,13 @@ class Vesicle {
     static S saturated_resistance() {
         using std::sqrt;
         return std::min<S>(S(1e5), S(0.1) / sqrt(std::numeric_limits<S>::epsilon()));
+    }
+
+    /// (gamma + sqrt(gamma^2 + m^2))/2 with m the mean of |gamma|: a kink would cost higher-order steps their order,
+    /// and slightly negative tensions their stability.
+    static Vector<S> positive_part(const Vector<S>& tension) {
+        const S mean = tension.cwiseAbs().mean();
+        return (tension + (tension.cwiseAbs2().array() + mean * mean).sqrt().matrix()) / 2;
     }
 
     /// Curvature variations of an excess area D are about sqrt(D); below 1e-6 the tension's mean is noise.

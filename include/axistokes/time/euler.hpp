@@ -25,7 +25,6 @@ void euler_move(Configuration<S>& now, const InstantType& instant, const S& dt) 
     now.shape.z += dt * (u.tail(n).array() - instant.velocity).matrix();
     now.shape.r[0] = now.shape.r[n - 1] = 0;
     now.position += dt * instant.velocity;
-    now.tension = instant.solution.tension;
 }
 
 template <class S, class SceneType>

@@ -60,7 +60,8 @@ requires(Order >= 2) class ExtrapolatedEuler {
   private:
     /// `count` Euler steps, the first of which is known. Each ends with its area and volume restored: what is
     /// extrapolated is then the motion on the surface of constant area and volume, as the discretisation measures them,
-    /// and the correction that ends the whole step is as small as the step's error.
+    /// and the correction that ends the whole step is as small as the step's error. The tension that stabilises a step
+    /// stays that of `now`: one that changed from step to step would put terms (H/j)^3 of its own into the table.
     template <class S, class SceneType, class InstantType>
     static Vector<S> steps(SceneType& scene, Configuration<S> now, const InstantType& first, const Measures<S>& kept,
                            int count, const S& dt) {

@@ -281,8 +281,9 @@ class ChannelMesh {
     void append_panels() {
         using std::cos;
         using std::sin;
-        constexpr Index cap_panels = 2;
-        const Scalar turn = detail::pi_value<Scalar>() / (2 * cap_panels);
+        // Two resolve the flow as well as panels of one radius on the wall do; a mesh asked for refines them too.
+        const Index cap_panels = params_.panels ? std::max<Index>(2, wall_panels() / 8) : 2;
+        const Scalar turn = detail::pi_value<Scalar>() / Scalar(2 * cap_panels);
         const auto cap = [&](const Scalar& start, const Scalar& centre, const Scalar& radius) {
             for (Index k = 0; k < cap_panels; ++k) {
                 curve_.append([&](const Scalar& t) {

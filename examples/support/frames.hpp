@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Shapes kept on the way, in the laboratory frame.
+#pragma once
+
+#include <axistokes/geometry/meridian.hpp>
+#include <axistokes/io/csv.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace examples {
+
+class Frames {
+  public:
+    bool empty() const { return frame_.empty(); }
+
+    void add(double at, const axistokes::Meridian<double>& shape) {
+        const double next = frame_.empty() ? 0 : frame_.back() + 1;
+        for (axistokes::Index i = 0; i < shape.nodes(); ++i) {
+            frame_.push_back(next);
+            time_.push_back(at);
+            r_.push_back(shape.r[i]);
+            z_.push_back(shape.z[i]);
+        }
+    }
+
+    /// One row a node.
+    std::vector<axistokes::Column<double>> columns() const {
+        const auto vector = [](const std::vector<double>& v) {
+            using axistokes::Vector;
+            return Vector<double>(Eigen::Map<const Vector<double>>(v.data(), static_cast<axistokes::Index>(v.size())));
+        };
+        return {{"frame", vector(frame_)}, {"time", vector(time_)}, {"r", vector(r_)}, {"z", vector(z_)}};
+    }
+
+  private:
+    std::vector<double> frame_, time_, r_, z_;
+};
+
+/// Keeps the first shape at or after each of the given times.
+class FramesAt {
+  public:
+    explicit FramesAt(std::vector<double> times) : times_(std::move(times)) { std::sort(times_.begin(), times_.end()); }
+
+    template <class Simulator>
+    void visit(double time, const Simulator& simulator) {
+        if (next_ == times_.size() || time < times_[next_]) {
+            return;
+        }
+        frames_.add(time, simulator.shape());
+        while (next_ < times_.size() && times_[next_] <= time) {
+            ++next_;
+        }
+    }
+    const Frames& frames() const { return frames_; }
+
+  private:
+    std::vector<double> times_;
+    std::size_t next_ = 0;
+    Frames frames_;
+};
+
+}  // namespace examples

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+// The geometric services a Simulator asks of a discretisation, on the trigonometric series through the nodes
+// (docs/spectral.md, section 5).
+#pragma once
+
+#include "measures.hpp"
+#include "meridian.hpp"
+#include "remesh.hpp"
+#include "trigonometric.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <functional>
+#include <limits>
+
+namespace axistokes {
+
+/// Where the nodes of a spectral meridian go, and when they are moved.
+template <class S>
+struct SpectralMeshingParams {
+    NodeSpacing<S> spacing;
+    /// A further factor of the node density, of the position relative to the centroid; > 0 and smooth.
+    std::function<S(const Point<S>&)> density;
+    /// Nodes are redistributed when an interval differs from the wanted one by more than this factor, > 1.
+    S largest_distortion = S(1.2);
+};
+
+/// A meridian and its derivatives with respect to t, at the nodes or at the points of a Sampling.
+template <class S>
+struct SpectralCurve {
+    Vector<S> r, z, r1, z1, r2, z2;
+    Vector<S> speed;
+
+    explicit SpectralCurve(const Meridian<S>& m) : SpectralCurve(m, *TrigonometricBasis<S>::of_degree(m.elements())) {}
+    SpectralCurve(const Meridian<S>& m, const TrigonometricBasis<S>& basis)
+        : r(m.r),
+          z(m.z),
+          r1(basis.odd_first() * m.r),
+          z1(basis.even_first() * m.z),
+          r2(basis.odd_second() * m.r),
+          z2(basis.even_second() * m.z),
+          speed((r1.cwiseAbs2() + z1.cwiseAbs2()).cwiseSqrt()) {}
+    SpectralCurve(const Meridian<S>& m, const typename TrigonometricBasis<S>::Sampling& at)
+        : r(at.odd * m.r),
+          z(at.even * m.z),
+          r1(at.odd_slope * m.r),
+          z1(at.even_slope * m.z),
+          r2(at.odd_second * m.r),
+          z2(at.even_second * m.z),
+          speed((r1.cwiseAbs2() + z1.cwiseAbs2()).cwiseSqrt()) {}
+
+    /// Positive where the surface is convex.
+    Vector<S> meridional_curvature() const {
+        return (r1.cwiseProduct(z2) - z1.cwiseProduct(r2)).array() / speed.array().cube();
+    }
+    /// H; azimuthal and meridional curvature are the same on the axis.
+    Vector<S> mean_curvature() const {
+        Vector<S> h = meridional_curvature();
+        for (Index i = 0; i < h.size(); ++i) {
+            if (r[i] > S(0)) {
+                h[i] = (h[i] + z1[i] / (speed[i] * r[i])) / 2;
+            }
+        }
+        return h;
+    }
+};
+
+/// Base of the discretisations whose meridian is a sine and a cosine series of t.
+template <class S>
+class SpectralGeometry {
+  public:
+    /// Throws InvalidArgument when a parameter is out of range.
+    explicit SpectralGeometry(SpectralMeshingParams<S> meshing = {}) : meshing_(std::move(meshing)) {
+        detail::require(meshing_.spacing.curvature_weight >= S(0), "curvature weight",
+                        meshing_.spacing.curvature_weight, ">= 0");
+        detail::require(meshing_.spacing.smoothing >= S(0), "smoothing of the node density", meshing_.spacing.smoothing,
+                        ">= 0");
+        detail::require(meshing_.largest_distortion > S(1), "largest distortion", meshing_.largest_distortion, "> 1");
+    }
+
+    const SpectralMeshingParams<S>& meshing() const { return meshing_; }
+
+    Measures<S> measures(const Meridian<S>& shape) const {
+        const auto& fine = TrigonometricBasis<S>::of_degree(shape.elements())->fine();
+        const SpectralCurve<S> curve(shape, fine);
+        const S pi = detail::pi_value<S>();
+        const Vector<S> ring = fine.weights.cwiseProduct(curve.r);
+        const Vector<S> disc = pi * ring.cwiseProduct(curve.r).cwiseProduct(curve.z1);
+        Measures<S> m;
+        m.area = 2 * pi * ring.dot(curve.speed);
+        m.volume = disc.sum();
+        m.centroid = disc.dot(curve.z) / m.volume;
+        return m;
+    }
+
+    /// Largest distance from the axis.
+    S max_radius(const Meridian<S>& shape) const {
+        const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
+        const Vector<S> b = basis->odd_coefficients() * shape.r;
+        const Vector<S> slope = basis->odd_first() * shape.r;
+        S largest = 0;
+        for (Index e = 0; e < shape.elements(); ++e) {
+            if (slope[e] < S(0) || slope[e + 1] > S(0)) {
+                continue;
+            }
+            S low = basis->nodes()[e];
+            S high = basis->nodes()[e + 1];
+            for (int i = 0; i < std::numeric_limits<S>::digits / 2 + 8; ++i) {
+                const S middle = (low + high) / 2;
+                (detail::sine_series_slope<S>(b, middle) > S(0) ? low : high) = middle;
+            }
+            largest = std::max(largest, detail::sine_series<S>(b, low));
+        }
+        return largest;
+    }
+
+    /// 2 Int H^2 dA in kappa.
+    S bending_energy(const Meridian<S>& shape) const {
+        const auto& fine = TrigonometricBasis<S>::of_degree(shape.elements())->fine();
+        const SpectralCurve<S> curve(shape, fine);
+        return 4 * detail::pi_value<S>() *
+               fine.weights.cwiseProduct(curve.r).cwiseProduct(curve.speed).dot(curve.mean_curvature().cwiseAbs2());
+    }
+
+    /// Meridional curvatures at the lower and the upper pole, in 1/R0, positive on a sphere.
+    std::pair<S, S> pole_curvatures(const Meridian<S>& shape) const {
+        const Vector<S> k = SpectralCurve<S>(shape).meridional_curvature();
+        return {k[0], k[k.size() - 1]};
+    }
+
+    /// The part of the shape's slope dx/dt that the last quarter of its modes makes up: how well it is resolved.
+    S unresolved(const Meridian<S>& shape) const {
+        using std::sqrt;
+        const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
+        const Vector<S> k = Vector<S>::LinSpaced(shape.nodes(), S(0), S(shape.elements()));
+        const Vector<S> power = k.cwiseProduct(basis->odd_coefficients() * shape.r).cwiseAbs2() +
+                                k.cwiseProduct(basis->even_coefficients() * shape.z).cwiseAbs2();
+        return sqrt(power.tail(shape.nodes() / 4).sum() / power.sum());
+    }
+
+    /// Displaces the nodes by (a + b H) n until area and volume have the values given, to 1000 epsilon; false if
+    /// Newton's iteration does not get there. See restore_area_and_volume.
+    bool restore(Meridian<S>& shape, const S& area, const S& volume) const {
+        using std::abs;
+        const S tolerance = 1000 * std::numeric_limits<S>::epsilon();
+        const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
+        for (int iteration = 0; iteration < 8; ++iteration) {
+            const Measures<S> now = measures(shape);
+            Eigen::Matrix<S, 2, 1> defect{(area - now.area) / area, (volume - now.volume) / volume};
+            if (abs(defect[0]) <= tolerance && abs(defect[1]) <= tolerance) {
+                return true;
+            }
+            // dA = Int 2H phi dA, dV = Int phi dA for a normal displacement phi.
+            const SpectralCurve<S> fine(shape, basis->fine());
+            const Vector<S> fine_h = fine.mean_curvature();
+            const Vector<S> da =
+                2 * detail::pi_value<S>() * basis->fine().weights.cwiseProduct(fine.r).cwiseProduct(fine.speed);
+            const S total = da.dot(fine_h);
+            Eigen::Matrix<S, 2, 2> jacobian;
+            jacobian << 2 * total / area, 2 * da.dot(fine_h.cwiseAbs2()) / area, now.area / volume, total / volume;
+            Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<S, 2, 2>> decomposition;
+            decomposition.setThreshold(S(1e-5));
+            decomposition.compute(jacobian);
+            const Eigen::Matrix<S, 2, 1> change = decomposition.solve(defect);
+            if (decomposition.rank() < 2 && change.cwiseAbs().maxCoeff() < tolerance) {
+                return true;
+            }
+            const SpectralCurve<S> curve(shape, *basis);
+            const Vector<S> shift =
+                ((change[0] + change[1] * curve.mean_curvature().array()) / curve.speed.array()).matrix();
+            shape.r += shift.cwiseProduct(curve.z1);
+            shape.z -= shift.cwiseProduct(curve.r1);
+            shape.r[0] = shape.r[shape.elements()] = 0;
+            if (!shape.r.allFinite() || !shape.z.allFinite()) {
+                return false;
+            }
+        }
+        return false;
+    }
+
+    /// Largest ratio between the spacing of nodes and the wanted one, or its inverse; 1 is perfect.
+    S distortion(const Meridian<S>& shape) const {
+        const Vector<S> density = node_density(shape);
+        const S mean = TrigonometricBasis<S>::of_degree(shape.elements())->even_coefficients().row(0).dot(density);
+        return std::max(S(density.maxCoeff() / mean), S(mean / density.minCoeff()));
+    }
+
+    /// Moves the nodes along the curve if their spacing has become too uneven; true if it did.
+    bool redistribute(Meridian<S>& shape) const {
+        if (!(distortion(shape) > meshing_.largest_distortion)) {
+            return false;
+        }
+        shape = redistributed(shape, shape.elements());
+        return true;
+    }
+
+    /// `elements` + 1 nodes on the same curve, spaced as the parameters ask for. The curve changes by the part of it
+    /// that the new series cannot represent. Throws InvalidArgument for fewer than 8 elements.
+    Meridian<S> redistributed(const Meridian<S>& shape, Index elements) const {
+        detail::require_elements(elements);
+        const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
+        const Vector<S> density = basis->even_coefficients() * node_density(shape);
+        const Vector<S> a = basis->even_coefficients() * shape.z;
+        const Vector<S> b = basis->odd_coefficients() * shape.r;
+        // The new parameter is the integral of the density, tau(t) = t + sum_k g_k/(k g_0) sin kt.
+        Vector<S> series = density / density[0];
+        for (Index k = 1; k < series.size(); ++k) {
+            series[k] /= S(k);
+        }
+        const S pi = detail::pi_value<S>();
+        Meridian<S> result{Vector<S>::Zero(elements + 1), Vector<S>(elements + 1)};
+        result.z[0] = shape.z[0];
+        result.z[elements] = shape.z[shape.elements()];
+        for (Index i = 1; i < elements; ++i) {
+            const S wanted = pi * S(i) / S(elements);
+            S low = 0;
+            S high = pi;
+            for (int k = 0; k < std::numeric_limits<S>::digits + 2; ++k) {
+                const S middle = (low + high) / 2;
+                (middle + detail::sine_series<S>(series, middle) < wanted ? low : high) = middle;
+            }
+            result.r[i] = detail::sine_series<S>(b, low);
+            result.z[i] = detail::cosine_series<S>(a, low);
+        }
+        return result;
+    }
+
+  private:
+    /// The wanted number of nodes per unit of t, up to a factor: by curvature, smoothed along the arc.
+    Vector<S> node_density(const Meridian<S>& shape) const {
+        using std::sqrt;
+        const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
+        const SpectralCurve<S> curve(shape, *basis);
+        Vector<S> density =
+            (S(1) + (meshing_.spacing.curvature_weight * curve.meridional_curvature()).array().square()).sqrt();
+        if (meshing_.density) {
+            const S centroid = measures(shape).centroid;
+            for (Index i = 0; i < density.size(); ++i) {
+                density[i] *= meshing_.density({curve.r[i], curve.z[i] - centroid});
+            }
+        }
+        const S length = basis->even_coefficients().row(0).dot(curve.speed) * detail::pi_value<S>();
+        const S width = std::max<S>(meshing_.spacing.smoothing, S(2) / S(shape.elements())) * length;
+        // (1 - width^2 d^2/ds^2)^2 w = density; twice, so that no kink of the density survives.
+        const Vector<S> v2 = curve.speed.cwiseAbs2();
+        const Vector<S> first =
+            (curve.r1.cwiseProduct(curve.r2) + curve.z1.cwiseProduct(curve.z2)).cwiseQuotient(v2.cwiseAbs2());
+        Matrix<S> system = (-width * width) * (v2.cwiseInverse().asDiagonal() * basis->even_second());
+        system += (width * width) * (first.asDiagonal() * basis->even_first());
+        system.diagonal().array() += S(1);
+        const Eigen::PartialPivLU<Matrix<S>> lu(system);
+        density = lu.solve(lu.solve(density));
+        return density.cwiseProduct(curve.speed);
+    }
+
+    SpectralMeshingParams<S> meshing_;
+};
+
+}  // namespace axistokes
