@@ -150,6 +150,11 @@ TEST_CASE("tables reproduce the functions along both rays", "[bessel]") {
         const auto exact = scaled_bessel_i<long double>(x);
         CHECK(std::abs(real(x).i0 / exact.i0 - 1) < 2e-15L);
         CHECK(std::abs(real(x).difference / exact.difference - 1) < 2e-15L);
+        if (x >= axistokes::detail::ScaledITable<double>::cells) {
+            const auto beyond = real.beyond(1 / x);
+            CHECK(std::abs(beyond.i0 / std::sqrt(x) / exact.i0 - 1) < 2e-15L);
+            CHECK(std::abs(beyond.difference / (x * std::sqrt(x)) / exact.difference - 1) < 2e-15L);
+        }
         const auto exact_single = scaled_bessel_i<double>(static_cast<double>(static_cast<float>(x)));
         CHECK(std::abs(static_cast<double>(single(static_cast<float>(x)).i0) / exact_single.i0 - 1) < 1e-6);
         const auto exact_turned = scaled_bessel_i<std::complex<long double>>(std::complex<long double>(diagonal) *

@@ -9,6 +9,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -290,6 +291,107 @@ TEST_CASE("the correction of a long vesicle's single layer meets its tolerance",
             INFO("film " << film << ", tolerance " << tolerance);
             CHECK((correction(m, tolerance) - exact).cwiseAbs().maxCoeff() < tolerance * scale);
         }
+    }
+}
+
+TEST_CASE("factors of many wave numbers at once are those of single ones", "[tube]") {
+    // On the axis, near it and near the wall: both branches of the Bessel functions; few panels and many equal ones.
+    for (const double least_gap : {0.004, 0.3}) {
+        const detail::TubeSpectrum<double> spectrum(1.0, 0, 2.0, least_gap, 1e-10);
+        detail::TubeWaves<double> waves(spectrum);
+        const std::size_t n = spectrum.size();
+        double worst = 0;
+        const auto compare = [&](double got, double expected, double scale) {
+            worst = std::max(worst, std::abs(got - expected) / scale);
+        };
+        for (const double r : {0.0, 1e-9, 0.1, 0.7, 0.998}) {
+            const double gap = 1 - r;
+            const std::size_t relevant = spectrum.relevant(gap + least_gap / 2);
+            for (const double z : {-0.9, 0.0, 0.4}) {
+                for (const bool is_source : {false, true}) {
+                    std::vector<double> row_r(4 * n, 0.0);
+                    std::vector<double> row_z(4 * n, 0.0);
+                    if (is_source) {
+                        waves.source(r, gap, z, relevant, row_r.data(), row_z.data());
+                    } else {
+                        waves.target(r, gap, z, relevant, row_r.data(), row_z.data());
+                    }
+                    for (std::size_t k = 0; k < n; ++k) {
+                        const bool reaches = k < relevant;
+                        const auto u = is_source ? spectrum.source(k, r, gap) : spectrum.target(k, r, gap);
+                        const double angle = spectrum.zeta(k) * z;
+                        const double c = reaches ? std::cos(angle) : 0;
+                        const double d = reaches ? std::sin(angle) : 0;
+                        // Sine and exponential inherit the rounding of their arguments.
+                        const double scale = (std::abs(u.zp) + std::abs(u.zq) + std::abs(u.rp) + std::abs(u.rq)) *
+                                             (1 + std::abs(angle) + spectrum.zeta(k) * gap);
+                        compare(row_z[k], u.zp * c, scale);
+                        compare(row_z[k + n], u.zq * c, scale);
+                        compare(row_z[k + 2 * n], u.zp * d, scale);
+                        compare(row_z[k + 3 * n], u.zq * d, scale);
+                        compare(row_r[k], u.rp * d, scale);
+                        compare(row_r[k + n], u.rq * d, scale);
+                        compare(row_r[k + 2 * n], -u.rp * c, scale);
+                        compare(row_r[k + 3 * n], -u.rq * c, scale);
+                    }
+                }
+            }
+        }
+        INFO("least gap " << least_gap);
+        CHECK(worst < 1e-14);
+    }
+}
+
+TEST_CASE("the flow of a ring is free of divergence", "[tube]") {
+    const auto kernel = tube(1.0, 1e-13);
+    for (const Point<double> source : {Point<double>{0.6, 0.1}, Point<double>{0.97, -0.3}}) {
+        for (const Point<double> x : {Point<double>{0.3, 0.2}, Point<double>{0.9, 0.4}, Point<double>{0.8, -1.5}}) {
+            // Central differences for a radial and for an axial force: divergence, and its part along z for scale.
+            const auto differences = [&](double h) {
+                const auto up = kernel.total({x.r, x.z + h}, source);
+                const auto down = kernel.total({x.r, x.z - h}, source);
+                const auto out = kernel.total({x.r + h, x.z}, source);
+                const auto in = kernel.total({x.r - h, x.z}, source);
+                const double z_radial = (up.zr - down.zr) / (2 * h);
+                const double z_axial = (up.zz - down.zz) / (2 * h);
+                const double radial = ((x.r + h) * out.rr - (x.r - h) * in.rr) / (2 * h * x.r) + z_radial;
+                const double axial = ((x.r + h) * out.rz - (x.r - h) * in.rz) / (2 * h * x.r) + z_axial;
+                return std::array<double, 4>{radial, axial, z_radial, z_axial};
+            };
+            const auto fine = differences(2e-3);
+            const auto coarse = differences(4e-3);
+            for (std::size_t i = 0; i < 2; ++i) {
+                INFO("source at r = " << source.r << ", target at " << x.r << ", " << x.z);
+                CHECK(std::abs(4 * fine[i] - coarse[i]) / 3 < 1e-6 * std::abs(fine[i + 2]));
+            }
+        }
+    }
+}
+
+TEST_CASE("the pressure drop is that of the flow", "[tube]") {
+    // With the axial momentum equation integrated along the tube, U(r) = Int u_z dz obeys U'' + U'/r = p(inf) - p(-inf)
+    // inside the ring: U = U(0) + r^2/4 of it. The trapezoidal rule converges geometrically.
+    struct Ring {
+        Meridian<double> nodes;
+        Vector<double> weight;
+        Index size() const { return 1; }
+    };
+    const auto kernel = tube(1.0, 1e-12);
+    for (const double r : {0.6, 0.95}) {
+        const auto along = [&](double r0) {
+            const double step = 0.06;
+            double sum = 0;
+            for (int k = -130; k <= 130; ++k) {
+                sum += step * kernel.total({r0, 0}, {r, step * k}).zz;
+            }
+            return sum / (8 * test::pi);
+        };
+        const double rise = 4 * (along(0.2) - along(0)) / (0.2 * 0.2);
+        Ring ring{{Vector<double>::Constant(1, r), Vector<double>::Zero(1)}, Vector<double>::Constant(1, 2 * test::pi * r)};
+        Vector<double> force(2);
+        force << 0, 1;
+        INFO("ring of radius " << r);
+        CHECK(kernel.pressure_drop(ring, force) == Approx(-rise).epsilon(1e-8));
     }
 }
 
