@@ -268,7 +268,7 @@ class SpectralMeridian : public SpectralGeometry<S> {
         }
 
         void add_near(Index i, Matrix<S>& g) {
-            const Index count = static_cast<Index>(t_.size());
+            const auto count = static_cast<Index>(t_.size());
             if (count == 0) {
                 return;
             }
@@ -348,7 +348,7 @@ class SpectralMeridian : public SpectralGeometry<S> {
                     }
                 }
             }
-            const Index count = static_cast<Index>(t_.size());
+            const auto count = static_cast<Index>(t_.size());
             const Index n = meridian_.nodes();
             const Vector<S> t = Eigen::Map<const Vector<S>>(t_.data(), count);
             cardinals_.resize(n, count);

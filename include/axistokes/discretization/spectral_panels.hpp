@@ -10,9 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace axistokes {
-
-namespace detail {
+namespace axistokes::detail {
 
 /// The fixed panels on [0, pi] for series of a degree: points, and the cardinal functions there.
 template <class S>
@@ -103,6 +101,4 @@ struct EntryMatrices {
     }
 };
 
-}  // namespace detail
-
-}  // namespace axistokes
+}  // namespace axistokes::detail
