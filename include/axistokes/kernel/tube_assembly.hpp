@@ -5,8 +5,12 @@
 #include "tube.hpp"
 #include "tube_waves.hpp"
 
+#include <Eigen/SparseCore>
+
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <vector>
 
 namespace axistokes::detail {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The factors of one point for all real wave numbers, in loops that vectorise; included by tube_assembly.hpp.
+// The factors of one point for all real wave numbers, in loops that vectorise.
 //
 // Wave numbers are zeta = centre + offset on panels of equal length, so exp(zeta (i z - gap)) is the product of one
 // exponential per panel and one per offset, and offsets are symmetric. Where zeta r is large the Bessel functions are
 // one polynomial in 1/(zeta r).
 #pragma once
 
-#include "tube.hpp"
+#include "tube_spectrum.hpp"
 
 #include <algorithm>
 #include <array>
@@ -90,11 +90,10 @@ class TubeWaves {
         if constexpr (ScaledITable<S>::asymptotic) {
             const std::vector<S>& zeta = coefficient_[0];
             const auto large = [&](const S& value) { return value * r >= S(ScaledITable<S>::cells); };
-            std::size_t k = static_cast<std::size_t>(
+            return static_cast<std::size_t>(
                 std::partition_point(zeta.begin(), zeta.begin() + static_cast<std::ptrdiff_t>(relevant),
                                      [&](const S& value) { return !large(value); }) -
                 zeta.begin());
-            return k;
         } else {
             return relevant;
         }
