@@ -387,7 +387,8 @@ TEST_CASE("the pressure drop is that of the flow", "[tube]") {
             return sum / (8 * test::pi);
         };
         const double rise = 4 * (along(0.2) - along(0)) / (0.2 * 0.2);
-        Ring ring{{Vector<double>::Constant(1, r), Vector<double>::Zero(1)}, Vector<double>::Constant(1, 2 * test::pi * r)};
+        Ring ring{{Vector<double>::Constant(1, r), Vector<double>::Zero(1)},
+                  Vector<double>::Constant(1, 2 * test::pi * r)};
         Vector<double> force(2);
         force << 0, 1;
         INFO("ring of radius " << r);

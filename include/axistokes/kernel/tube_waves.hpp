@@ -90,10 +90,10 @@ class TubeWaves {
         if constexpr (ScaledITable<S>::asymptotic) {
             const std::vector<S>& zeta = coefficient_[0];
             const auto large = [&](const S& value) { return value * r >= S(ScaledITable<S>::cells); };
-            return static_cast<std::size_t>(
-                std::partition_point(zeta.begin(), zeta.begin() + static_cast<std::ptrdiff_t>(relevant),
-                                     [&](const S& value) { return !large(value); }) -
-                zeta.begin());
+            return static_cast<std::size_t>(std::partition_point(zeta.begin(),
+                                                                 zeta.begin() + static_cast<std::ptrdiff_t>(relevant),
+                                                                 [&](const S& value) { return !large(value); }) -
+                                            zeta.begin());
         } else {
             return relevant;
         }

@@ -5,7 +5,6 @@
 
 #include "bessel.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -34,8 +33,7 @@ template <class C>
 class ScaledITable {
     using S = real_of<C>;
     static constexpr bool tabulated = std::is_same_v<S, double> || std::is_same_v<S, float>;
-    static constexpr std::size_t asymptotic_terms = 13;  // odd
-    static constexpr int coefficients = 15;              // odd; interpolation error below 1e-16 on every cell
+    static constexpr int coefficients = 15;  // odd; interpolation error below 1e-16 on every cell
 
   public:
     static constexpr int cells = 20;  // of width 1 in x, and as many of width 1/cells in cells/x beyond
@@ -57,33 +55,18 @@ class ScaledITable {
             }
         }
         if constexpr (asymptotic) {
-            const Cell all = fit([&](long double xi) {
+            beyond_ = fit([&](long double xi) {
                 const long double x = 2 * cells / (xi + 1);
                 Pair v = value(x);
                 v.i0 *= std::sqrt(x);
                 v.difference *= x * std::sqrt(x);
                 return v;
             });
-            std::copy_n(all.begin(), asymptotic_terms, beyond_.begin());
         }
     }
 
     /// sqrt(x) times the one and x^(3/2) times the other function, given 1/x <= 1/cells.
-    ScaledIPair<C> beyond(const S& inverse) const {
-        const S xi = 2 * S(cells) * inverse - S(1);
-        const S square = xi * xi;
-        ScaledIPair<C> even = beyond_[asymptotic_terms - 1];
-        ScaledIPair<C> odd = beyond_[asymptotic_terms - 2];
-        for (std::size_t k = asymptotic_terms - 3; k >= 2; k -= 2) {
-            even.i0 = even.i0 * square + beyond_[k].i0;
-            even.difference = even.difference * square + beyond_[k].difference;
-            odd.i0 = odd.i0 * square + beyond_[k - 1].i0;
-            odd.difference = odd.difference * square + beyond_[k - 1].difference;
-        }
-        even.i0 = even.i0 * square + beyond_[0].i0;
-        even.difference = even.difference * square + beyond_[0].difference;
-        return {even.i0 + xi * odd.i0, even.difference + xi * odd.difference};
-    }
+    ScaledIPair<C> beyond(const S& inverse) const { return sum(beyond_, 2 * S(cells) * inverse - S(1)); }
 
     ScaledIPair<C> operator()(const S& x) const {
         if constexpr (tabulated) {
@@ -177,7 +160,7 @@ class ScaledITable {
     C direction_;
     std::array<Cell, cells> near_;
     std::array<Cell, cells> far_;
-    std::array<ScaledIPair<C>, asymptotic_terms> beyond_;
+    Cell beyond_;
 };
 
 }  // namespace axistokes::detail
