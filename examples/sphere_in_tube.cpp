@@ -6,6 +6,7 @@
 #include <axistokes/axistokes.hpp>
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace {
@@ -57,7 +58,8 @@ int solve(const Case& c, const Kernel& kernel, const Flow& flow, const Result& r
 /// `flow` drives the sphere with a typical velocity 1; `result(instant)` gives the keys that depend on it.
 template <class Flow, class Result>
 int solve(const Case& c, const Flow& flow, const Result& result) {
-    detail::require(c.method == "tube" || c.method == "wall", "method", c.method, "tube or wall");
+    detail::require(c.method == "tube" || c.method == "filon" || c.method == "wall", "method", c.method,
+                    "tube, filon or wall");
     if (c.method == "wall") {
         WallMeshParams<double> wall;
         wall.tolerance = c.tolerance;
@@ -65,6 +67,9 @@ int solve(const Case& c, const Flow& flow, const Result& result) {
     }
     TubeKernel<double>::Params kernel;
     kernel.tolerance = c.tolerance;
+    if (c.method == "filon") {
+        return solve(c, TubeFilonKernel<double>(c.radius, kernel), flow, result);
+    }
     return solve(c, TubeKernel<double>(c.radius, kernel), flow, result);
 }
 
@@ -77,10 +82,13 @@ int main(int argc, char** argv) {
     std::string flow = "none";
     std::string method = "tube";
     double tolerance = 1e-8;
+    std::optional<Index> elements;
     tube.add_to(app, "0.5");
-    examples::add_number(app, "--elements", run.elements, "elements on the meridian");
+    examples::add_number(app, "--elements", elements, "elements on the meridian (default: 64; with filon 16)");
     app.add_option("--flow", flow, "none: it is dragged along; poiseuille: it floats freely")->capture_default_str();
-    app.add_option("--method", method, "tube: the tube's Green function; wall: the free-space one and a meshed wall")
+    app.add_option("--method", method,
+                   "tube: the tube's Green function; filon: the same by the paper's quadrature, slow;\n"
+                   "wall: the free-space one and a meshed wall")
         ->capture_default_str();
     examples::add_number(app, "--tolerance", tolerance, "of the quadratures and of the tube kernel or the wall");
     run.add_output_to(app);
@@ -90,6 +98,7 @@ int main(int argc, char** argv) {
         const double radius = tube.radius();
         detail::require(radius > 1, "confinement", *tube.confinement, "< 1, that is the sphere must fit into the tube");
         detail::require(flow == "none" || flow == "poiseuille", "flow", flow, "none or poiseuille");
+        run.elements = elements.value_or(method == "filon" ? 16 : 64);
         const Case c{run, radius, tolerance, method};
         if (flow == "none") {
             // The weight of a sphere that settles at unit velocity in an unbounded fluid: U = -1/K.
