@@ -3,6 +3,7 @@
 // flow; the traction along the meridian.
 #include "support/run.hpp"
 #include "support/tube.hpp"
+#include "support/wall.hpp"
 #include <axistokes/axistokes.hpp>
 
 #include <cmath>
@@ -35,7 +36,7 @@ struct Case {
     examples::RunOptions run;
     double radius;
     double tolerance;
-    std::string method;
+    examples::WallOptions wall;
 };
 
 template <class Kernel, class Flow, class Wall = NoWall, class Result>
@@ -46,7 +47,7 @@ int solve(const Case& c, const Kernel& kernel, const Flow& flow, const Result& r
     elements.tolerance = c.tolerance;
     Sphere simulator(sphere<double>(c.run.elements), flow, c.run.params(), kernel, LinearElements<double>(elements), {},
                      {}, {}, wall);
-    return examples::run_to_end(simulator, c.run, {{"method", c.method}, {"tolerance", c.tolerance}},
+    return examples::run_to_end(simulator, c.run, {{"method", c.wall.method}, {"tolerance", c.tolerance}},
                                 [&](const auto& s, const auto& instant) {
                                     write_traction(c.run, instant);
                                     nlohmann::ordered_json summary = examples::tube_summary(s, 0);
@@ -58,16 +59,13 @@ int solve(const Case& c, const Kernel& kernel, const Flow& flow, const Result& r
 /// `flow` drives the sphere with a typical velocity 1; `result(instant)` gives the keys that depend on it.
 template <class Flow, class Result>
 int solve(const Case& c, const Flow& flow, const Result& result) {
-    detail::require(c.method == "tube" || c.method == "filon" || c.method == "wall", "method", c.method,
-                    "tube, filon or wall");
-    if (c.method == "wall") {
-        WallMeshParams<double> wall;
-        wall.tolerance = c.tolerance;
-        return solve(c, FreeSpaceKernel<double>(), flow, result, WallMesh(StraightTube<double>(c.radius), wall));
+    if (c.wall.meshed()) {
+        const WallMesh wall(StraightTube<double>(c.radius), c.wall.params(c.tolerance));
+        return solve(c, FreeSpaceKernel<double>(), flow, result, wall);
     }
     TubeKernel<double>::Params kernel;
     kernel.tolerance = c.tolerance;
-    if (c.method == "filon") {
+    if (c.wall.method == "filon") {
         return solve(c, TubeFilonKernel<double>(c.radius, kernel), flow, result);
     }
     return solve(c, TubeKernel<double>(c.radius, kernel), flow, result);
@@ -80,16 +78,13 @@ int main(int argc, char** argv) {
     examples::RunOptions run;
     examples::TubeOptions tube;
     std::string flow = "none";
-    std::string method = "tube";
+    examples::WallOptions wall;
     double tolerance = 1e-8;
     std::optional<Index> elements;
     tube.add_to(app, "0.5");
     examples::add_number(app, "--elements", elements, "elements on the meridian (default: 64; with filon 16)");
     app.add_option("--flow", flow, "none: it is dragged along; poiseuille: it floats freely")->capture_default_str();
-    app.add_option("--method", method,
-                   "tube: the tube's Green function; filon: the same by the paper's quadrature, slow;\n"
-                   "wall: the free-space one and a meshed wall")
-        ->capture_default_str();
+    wall.add_to(app, true);
     examples::add_number(app, "--tolerance", tolerance, "of the quadratures and of the tube kernel or the wall");
     run.add_output_to(app);
 
@@ -98,8 +93,8 @@ int main(int argc, char** argv) {
         const double radius = tube.radius();
         detail::require(radius > 1, "confinement", *tube.confinement, "< 1, that is the sphere must fit into the tube");
         detail::require(flow == "none" || flow == "poiseuille", "flow", flow, "none or poiseuille");
-        run.elements = elements.value_or(method == "filon" ? 16 : 64);
-        const Case c{run, radius, tolerance, method};
+        run.elements = elements.value_or(wall.method == "filon" ? 16 : 64);
+        const Case c{run, radius, tolerance, wall};
         if (flow == "none") {
             // The weight of a sphere that settles at unit velocity in an unbounded fluid: U = -1/K.
             return solve(c, Gravity<double>(4.5), [](const auto& instant) {

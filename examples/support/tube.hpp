@@ -6,6 +6,7 @@
 #include <axistokes/geometry/tube_shapes.hpp>
 
 #include <optional>
+#include <type_traits>
 
 namespace examples {
 
@@ -30,7 +31,7 @@ struct TubeOptions {
 };
 
 /// Film thickness (R0), pressure drop that the particle adds (kappa/R0^3) and, in a flow of the given mean velocity,
-/// the mobility.
+/// the mobility; of a meshed wall also its panels, without those on the ends, and all its nodes.
 template <class Simulator>
 nlohmann::ordered_json tube_summary(const Simulator& simulator, double mean_velocity) {
     const double radius = simulator.scene().wall_radius(0);
@@ -38,6 +39,12 @@ nlohmann::ordered_json tube_summary(const Simulator& simulator, double mean_velo
     const auto film = simulator.scene().film_thickness(simulator.configuration());
     summary["film_thickness_min"] = film.min;
     summary["film_thickness_mean"] = film.mean;
+    if constexpr (std::remove_cvref_t<decltype(simulator.scene().wall())>::present) {
+        if (const auto& mesh = simulator.scene().wall().mesh()) {
+            summary["wall_panels"] = mesh->wall_panels();
+            summary["wall_nodes"] = mesh->curve().size();
+        }
+    }
     if (!simulator.history().empty()) {
         summary["pressure_drop"] = simulator.history().back().pressure_drop;
         if (mean_velocity != 0) {
