@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A vesicle in a fluid at rest relaxes to a minimum of its bending energy.
-#include "support/run.hpp"
-#include <axistokes/axistokes.hpp>
+#include "support/vesicle_case.hpp"
 
 #include <cmath>
 #include <numbers>
 
 int main(int argc, char** argv) {
-    using namespace axistokes;
-    using Relaxing = Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, Quiescent<double>,
-                               SemiImplicitEuler, DenseLU<double>>;
-
+    using axistokes::detail::require;
     CLI::App app{"An axisymmetric vesicle relaxes, without flow, to the shape of least bending energy near its own"};
     examples::VesicleOptions vesicle;
     examples::RunOptions run;
@@ -25,11 +21,12 @@ int main(int argc, char** argv) {
 
     return examples::run_program("relaxing_vesicle", app, argc, argv, [&] {
         if (by_area->count() == 0) {
-            detail::require(reduced_volume > 0 && reduced_volume <= 1, "reduced volume", reduced_volume, "in (0, 1]");
+            require(reduced_volume > 0 && reduced_volume <= 1, "reduced volume", reduced_volume, "in (0, 1]");
             vesicle.excess_area = 4 * std::numbers::pi * (std::pow(reduced_volume, -2.0 / 3) - 1);
         }
-        const auto params = run.params();
-        Relaxing simulator(vesicle.shape(run.elements), {}, params);
-        return examples::run_to_end(simulator, run, {{"excess_area", vesicle.excess_area}, {"initial", vesicle.kind}});
+        const auto initial = [&](axistokes::Index elements) { return vesicle.shape(elements); };
+        examples::VesicleCase c{run, initial, vesicle.excess_area, axistokes::Quiescent<double>{}, {}, 0, {}};
+        c.parameters = {{"excess_area", vesicle.excess_area}, {"initial", vesicle.kind}};
+        return examples::run_vesicle(c);
     });
 }

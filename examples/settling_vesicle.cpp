@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A vesicle, heavier than the fluid, settles along its axis until it is stationary, in an unbounded fluid or in a tube.
-#include "support/run.hpp"
 #include "support/tube.hpp"
-#include <axistokes/axistokes.hpp>
+#include "support/vesicle_case.hpp"
 
 int main(int argc, char** argv) {
-    using namespace axistokes;
-    using Settling = Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, Gravity<double>,
-                               SemiImplicitEuler, DenseLU<double>>;
-    using SettlingInTube = Simulator<TubeKernel<double>, LinearElements<double>, Vesicle<double>, Gravity<double>,
-                                     SemiImplicitEuler, DenseLU<double>>;
-
     CLI::App app{"An axisymmetric vesicle settles under gravity (along -z), in an unbounded fluid or along a tube"};
     examples::VesicleOptions vesicle;
     examples::RunOptions run;
@@ -22,15 +15,14 @@ int main(int argc, char** argv) {
     run.add_to(app);
 
     return examples::run_program("settling_vesicle", app, argc, argv, [&] {
-        const nlohmann::ordered_json parameters{{"excess_area", vesicle.excess_area}, {"bond", bond}};
-        const auto params = run.params();
-        if (!tube.confinement) {
-            Settling simulator(vesicle.shape(run.elements), Gravity<double>(bond), params);
-            return examples::run_to_end(simulator, run, parameters);
+        const auto initial = [&](axistokes::Index elements) {
+            return tube.confinement ? tube.shape(vesicle, elements) : vesicle.shape(elements);
+        };
+        examples::VesicleCase c{run, initial, vesicle.excess_area, axistokes::Gravity<double>(bond), {}, 0, {}};
+        c.parameters = {{"excess_area", vesicle.excess_area}, {"bond", bond}};
+        if (tube.confinement) {
+            c.surroundings.tube_radius = tube.radius();
         }
-        SettlingInTube simulator(tube.shape(vesicle, run.elements), Gravity<double>(bond), params,
-                                 TubeKernel<double>(tube.radius()));
-        return examples::run_to_end(simulator, run, parameters,
-                                    [](const auto& s, const auto&) { return examples::tube_summary(s, 0); });
+        return examples::run_vesicle(c);
     });
 }

@@ -38,6 +38,17 @@ class Frames {
     std::vector<double> frame_, time_, r_, z_;
 };
 
+/// A curve to draw: the nodes, or, of a discretisation that has few of them, more points between them.
+template <class Discretization>
+axistokes::Meridian<double> drawn_curve(const Discretization& discretization,
+                                        const axistokes::Meridian<double>& shape) {
+    if constexpr (requires { discretization.unresolved(shape); }) {
+        return discretization.redistributed(shape, 4 * shape.elements());
+    } else {
+        return shape;
+    }
+}
+
 /// Keeps the first shape at or after each of the given times.
 class FramesAt {
   public:
@@ -48,7 +59,7 @@ class FramesAt {
         if (next_ == times_.size() || time < times_[next_]) {
             return;
         }
-        frames_.add(time, simulator.shape());
+        frames_.add(time, drawn_curve(simulator.scene().discretization(), simulator.shape()));
         while (next_ < times_.size() && times_[next_] <= time) {
             ++next_;
         }

@@ -2,6 +2,7 @@
 // Options that the simulations share.
 #pragma once
 
+#include "method.hpp"
 #include "program.hpp"
 #include <axistokes/geometry/shapes.hpp>
 #include <axistokes/simulator.hpp>
@@ -16,8 +17,10 @@ namespace examples {
 
 /// How long to run, how finely, and where the results go.
 struct RunOptions {
-    axistokes::Index elements = 64;
-    double tolerance = 1e-5;
+    MethodOptions method;
+    std::optional<axistokes::Index> elements;
+    std::optional<double> tolerance;
+    std::optional<double> step_tolerance;
     std::optional<double> time_step;
     std::optional<double> time;
     std::optional<axistokes::Index> steps;
@@ -27,10 +30,15 @@ struct RunOptions {
     std::vector<double> frame_times;
 
     void add_to(CLI::App& app) {
-        add_number(app, "--elements", elements, "elements on the meridian");
-        add_number(app, "--tolerance", tolerance, "stationary when the residual is below this");
+        add_number(app, "--elements", elements,
+                   "elements, or modes, on the meridian (default: 64, spectral 32; with --preset-accuracy as many as it "
+                   "takes)");
+        add_number(app, "--tolerance", tolerance, "stationary when the residual is below this (default: 1e-5)");
+        method.add_to(app);
         add_output_to(app);
         add_number(app, "--dt", time_step, "fixed time step (default: automatic)");
+        add_number(app, "--step-tolerance", step_tolerance,
+                   "error allowed in a time step, in R0, by integrators that estimate it (default: 1e-4)");
         add_number(app, "--time", time, "stop at this time, stationary or not");
         add_number(app, "--max-steps", steps, "stop after this many steps, stationary or not");
         app.add_option("--frame-times", frame_times,
@@ -45,11 +53,33 @@ struct RunOptions {
         app.add_flag("--flow-field", flow_field, "also write flow.vts, the flow in a plane through the axis");
     }
 
+    /// Whether the number of elements is to follow from the accuracy.
+    bool adapts() const { return method.preset && !elements; }
+
+    axistokes::Index elements_or(axistokes::Index otherwise) const {
+        const axistokes::Index count = elements.value_or(otherwise);
+        axistokes::detail::require(count <= 4000, "number of elements", count, "at most 4000 (the matrices are dense)");
+        return count;
+    }
+
+    /// Whether the way matters and not only where it ends.
+    bool transient() const { return time.has_value() || !frame_times.empty(); }
+
     axistokes::SimulationParams<double> params() const {
-        axistokes::detail::require(elements <= 4000, "number of elements", elements,
-                                   "at most 4000 (the matrices are dense)");
+        method.check();
+        if (method.integrator_name() == "adaptive" && time_step) {
+            const bool chosen = method.integrator.has_value();
+            axistokes::detail::require(false, "--dt", *time_step,
+                                       chosen ? "absent with --integrator adaptive, which chooses its steps"
+                                              : "absent with --preset-accuracy, unless --integrator is given too");
+        }
         axistokes::SimulationParams<double> params;
-        params.tolerance = tolerance;
+        if (const auto accuracy = method.accuracy()) {
+            params.tolerance = accuracy->residual;
+            params.step_tolerance = transient() ? accuracy->step : accuracy->step_to_stationary;
+        }
+        params.tolerance = tolerance.value_or(params.tolerance);
+        params.step_tolerance = step_tolerance.value_or(params.step_tolerance);
         params.time_step = time_step;
         params.longest_time = time.value_or(params.longest_time);
         params.most_steps = steps.value_or(params.most_steps);

@@ -1,35 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Runs a simulator to its end, whatever that is, and writes what there is to write.
+// Writes what a run came to.
 #pragma once
 
 #include "frames.hpp"
 #include "options.hpp"
-#include "progress.hpp"
 #include "summary.hpp"
 #include <axistokes/io/csv.hpp>
 #include <axistokes/io/vtk.hpp>
 
-#include <chrono>
-#include <optional>
-#include <sstream>
-#include <string>
+#include <filesystem>
+#include <vector>
 
 namespace examples {
 
 /// Writes summary.json, shape.csv, history.csv and what else was asked for; nothing without a directory.
-template <class Simulator, class InstantType>
-void write_results(const Simulator& simulator, const std::optional<InstantType>& instant, const RunOptions& options,
+template <class Simulator>
+void write_results(const Simulator& simulator, const Ending<Simulator>& ending, const RunOptions& options,
                    const Frames& frames, const nlohmann::ordered_json& summary) {
     if (options.directory.empty()) {
         return;
     }
     const std::filesystem::path directory(options.directory);
-    using Scalar = typename Simulator::Scalar;
-    const auto& configuration = simulator.configuration();
+    const auto& configuration = ending.configuration;
+    const auto& instant = ending.instant;
     // Without velocities and forces (the last shape may be the cause of a failure) at least the shape.
-    const std::vector<axistokes::Column<Scalar>> shape =
+    const std::vector<axistokes::Column<double>> shape =
         instant ? axistokes::shape_columns(configuration, *instant)
-                : std::vector<axistokes::Column<Scalar>>{{"r", configuration.shape.r}, {"z", configuration.shape.z}};
+                : std::vector<axistokes::Column<double>>{{"r", configuration.shape.r}, {"z", configuration.shape.z}};
     axistokes::write_csv(directory / "shape.csv", shape);
     axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulator.history()));
     if (!frames.empty()) {
@@ -46,63 +43,16 @@ void write_results(const Simulator& simulator, const std::optional<InstantType>&
     axistokes::write_atomically(directory / "summary.json", [&](std::ostream& out) { out << summary.dump(2) << '\n'; });
 }
 
-/// `details(simulator, instant)` gives further keys of the summary.
-template <class Simulator, class Details>
-int run_to_end(Simulator& simulator, const RunOptions& options, const nlohmann::ordered_json& parameters,
-               const Details& details) {
-    if (!options.directory.empty()) {
-        axistokes::create_output_directory(options.directory);  // better now than after the run
-    }
-    const auto begin = std::chrono::steady_clock::now();
-    Ending ending;
-    FramesAt kept(options.frame_times);
-    kept.visit(0, simulator);
-    {
-        const InterruptGuard guard;
-        ProgressBar bar;
-        Approach approach(simulator.params().tolerance);
-        const auto observe = [&](const auto& record) {
-            const double by_time = record.time / simulator.params().longest_time;
-            const double by_steps =
-                static_cast<double>(record.step) / static_cast<double>(simulator.params().most_steps);
-            std::ostringstream text;
-            text << "step " << record.step << "  time " << record.time << "  residual " << record.residual;
-            kept.visit(record.time, simulator);
-            bar.show(std::max({approach.fraction(record.residual), by_time, by_steps}), text.str());
-            ending.interrupted = guard.interrupted();
-            return !ending.interrupted;
-        };
-        try {
-            simulator.run(observe);
-        } catch (const axistokes::SimulationFailure& failure) {
-            ending.failure = failure.what();
-        }
-    }
-    ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-
-    std::optional<typename Simulator::InstantType> instant;
-    try {
-        instant = simulator.instant();
-    } catch (const axistokes::SimulationFailure&) {
-        // Reported already: the run cannot have ended well on such a shape.
-    }
-    nlohmann::ordered_json summary = summarize(simulator, instant, ending);
-    if (instant) {
-        summary.update(details(simulator, *instant));
-    }
-    summary["parameters"] = parameters;
-    write_results(simulator, instant, options, kept.frames(), summary);
+/// Writes and prints; the exit code. Throws SimulationFailure if the run ended with one.
+template <class Simulator>
+int conclude(const Simulator& simulator, const Ending<Simulator>& ending, const RunOptions& options,
+             const Frames& frames, const nlohmann::ordered_json& summary) {
+    write_results(simulator, ending, options, frames, summary);
     print(summary, options.directory);
     if (!ending.failure.empty()) {
         throw axistokes::SimulationFailure(ending.failure);
     }
     return ending.interrupted ? interrupted : success;
-}
-
-template <class Simulator>
-int run_to_end(Simulator& simulator, const RunOptions& options, const nlohmann::ordered_json& parameters) {
-    return run_to_end(simulator, options, parameters,
-                      [](const auto&, const auto&) { return nlohmann::ordered_json::object(); });
 }
 
 }  // namespace examples

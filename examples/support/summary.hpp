@@ -2,8 +2,7 @@
 // The result of a run in a few numbers: as JSON and on the screen.
 #pragma once
 
-#include <axistokes/geometry/curvature.hpp>
-#include <axistokes/geometry/meridian_spline.hpp>
+#include <axistokes/scene.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -15,49 +14,73 @@
 
 namespace examples {
 
-/// How a run came to its end, and how long it took.
+/// What a run came to, by whatever way, and how long it took.
+template <class Simulator>
 struct Ending {
+    axistokes::Configuration<double> configuration;
+    std::optional<typename Simulator::InstantType> instant;
+    std::optional<double> velocity;
+    std::optional<double> residual;
+    double pressure_drop = 0;
+    bool stationary = false;
     std::string failure;  // the cause, or empty
     bool interrupted = false;
     double wall_seconds = 0;
+
+    /// Of the simulator's last step, its last good one if it failed. Velocities are those of the last step, or of the
+    /// initial shape if there was none.
+    void take(Simulator& simulator) {
+        configuration = simulator.configuration();
+        try {
+            instant = simulator.instant();
+        } catch (const axistokes::SimulationFailure&) {
+            // Reported already: the run cannot have ended well on such a shape.
+        }
+        stationary = simulator.stationary();
+        if (!simulator.history().empty()) {
+            const auto& last = simulator.history().back();
+            velocity = last.velocity;
+            residual = last.residual;
+            pressure_drop = last.pressure_drop;
+        } else if (instant) {
+            velocity = instant->velocity;
+            pressure_drop = instant->pressure_drop;
+        }
+    }
 };
 
-/// Geometry is that of the last good shape; velocities are those of the last step, or of the initial shape if there was
-/// none.
-template <class Simulator, class InstantType>
-nlohmann::ordered_json summarize(const Simulator& simulator, const std::optional<InstantType>& instant,
-                                 const Ending& ending) {
-    const auto& configuration = simulator.configuration();
+template <class Simulator>
+nlohmann::ordered_json summarize(const Simulator& simulator, const Ending<Simulator>& ending) {
+    const auto& configuration = ending.configuration;
     const auto& shape = configuration.shape;
-    const axistokes::MeridianSpline<double> spline(shape);
-    const axistokes::Measures<double> measures = spline.measures();
-    const axistokes::Vector<double> curvature = axistokes::principal_curvatures(shape).meridional;
+    const auto& discretization = simulator.scene().discretization();
+    const axistokes::Measures<double> measures = discretization.measures(shape);
+    const auto [bottom, top] = discretization.pole_curvatures(shape);
     const auto& history = simulator.history();
 
     nlohmann::ordered_json summary;
-    if (!history.empty() || instant) {
-        const double velocity = history.empty() ? instant->velocity : history.back().velocity;
-        summary["velocity"] = velocity;
-        summary["lag"] = velocity - simulator.scene().centreline_velocity(configuration.position);
+    if (ending.velocity) {
+        summary["velocity"] = *ending.velocity;
+        summary["lag"] = *ending.velocity - simulator.scene().centreline_velocity(configuration.position);
     }
     summary["length"] = shape.z[shape.nodes() - 1] - shape.z[0];
-    summary["max_radius"] = spline.max_radius();
-    summary["curvature_top"] = curvature[shape.nodes() - 1];
-    summary["curvature_bottom"] = curvature[0];
-    summary["bending_energy"] = axistokes::bending_energy(shape);
+    summary["max_radius"] = discretization.max_radius(shape);
+    summary["curvature_top"] = top;
+    summary["curvature_bottom"] = bottom;
+    summary["bending_energy"] = discretization.bending_energy(shape);
     summary["area"] = measures.area;
     summary["volume"] = measures.volume;
     summary["reduced_volume"] = measures.reduced_volume();
     summary["area_drift"] = measures.area / simulator.initial_area() - 1;
     summary["volume_drift"] = measures.volume / simulator.initial_volume() - 1;
-    summary["stationary"] = simulator.stationary();
+    summary["stationary"] = ending.stationary;
     summary["time"] = history.empty() ? 0.0 : history.back().time;
     summary["steps"] = history.size();
     summary["elements"] = shape.elements();
     summary["wall_seconds"] = ending.wall_seconds;
     summary["position"] = configuration.position;
-    if (!history.empty()) {
-        summary["residual"] = history.back().residual;
+    if (ending.residual) {
+        summary["residual"] = *ending.residual;
     }
     if (!ending.failure.empty()) {
         summary["failure"] = ending.failure;

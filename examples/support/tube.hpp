@@ -3,6 +3,7 @@
 #pragma once
 
 #include "options.hpp"
+#include "summary.hpp"
 #include <axistokes/geometry/tube_shapes.hpp>
 
 #include <optional>
@@ -33,10 +34,10 @@ struct TubeOptions {
 /// Film thickness (R0), pressure drop that the particle adds (kappa/R0^3) and, in a flow of the given mean velocity,
 /// the mobility; of a meshed wall also its panels, without those on the ends, and all its nodes.
 template <class Simulator>
-nlohmann::ordered_json tube_summary(const Simulator& simulator, double mean_velocity) {
+nlohmann::ordered_json tube_summary(const Simulator& simulator, const Ending<Simulator>& ending, double mean_velocity) {
     const double radius = simulator.scene().wall_radius(0);
     nlohmann::ordered_json summary{{"tube_radius", radius}, {"confinement", 1 / radius}};
-    const auto film = simulator.scene().film_thickness(simulator.configuration());
+    const auto film = simulator.scene().film_thickness(ending.configuration);
     summary["film_thickness_min"] = film.min;
     summary["film_thickness_mean"] = film.mean;
     if constexpr (std::remove_cvref_t<decltype(simulator.scene().wall())>::present) {
@@ -45,10 +46,10 @@ nlohmann::ordered_json tube_summary(const Simulator& simulator, double mean_velo
             summary["wall_nodes"] = mesh->curve().size();
         }
     }
-    if (!simulator.history().empty()) {
-        summary["pressure_drop"] = simulator.history().back().pressure_drop;
+    if (ending.velocity) {
+        summary["pressure_drop"] = ending.pressure_drop;
         if (mean_velocity != 0) {
-            summary["mobility"] = simulator.history().back().velocity / mean_velocity;
+            summary["mobility"] = *ending.velocity / mean_velocity;
         }
     }
     return summary;

@@ -16,12 +16,12 @@ namespace axistokes {
 /// TimeIntegratorFor<Scene>: `step(scene, configuration, dt)` evaluates the scene once or more and returns the
 /// displaced meridian, relative to the moved centroid, the centroid's displacement and the instant the motion started
 /// from. The result may have a member `error`, an estimate of the step's error in R0: the automatic step then follows
-/// it.
+/// it, unless the integrator has a member `estimates_error()` that says it is none.
 template <class T, class SceneType>
 concept TimeIntegratorFor = requires(const T& integrator, SceneType& scene,
                                      const Configuration<typename SceneType::Scalar>& start,
                                      typename SceneType::Scalar dt) {
-    { T::order } -> std::convertible_to<int>;
+    { integrator.order } -> std::convertible_to<int>;
     { integrator.step(scene, start, dt).shape } -> std::convertible_to<Meridian<typename SceneType::Scalar>>;
     { integrator.step(scene, start, dt).displacement } -> std::convertible_to<typename SceneType::Scalar>;
     { integrator.step(scene, start, dt).instant } -> std::convertible_to<typename SceneType::InstantType>;
@@ -159,6 +159,21 @@ class Simulator {
     /// Velocities and forces on the current shape.
     InstantType instant() { return scene_.evaluate(configuration_, Scalar(0)); }
 
+    /// Goes on with `elements` elements on the current curve. Throws InvalidArgument for fewer than 8 and
+    /// SimulationFailure, leaving the state as it was, if they cannot carry the shape.
+    void refine(Index elements) requires(Membrane::deformable) {
+        const Discretization& discretization = scene_.discretization();
+        Meridian<Scalar> shape = discretization.redistributed(configuration_.shape, elements);
+        std::string cause;
+        if (!usable(shape, cause) || !discretization.restore(shape, area_, volume_) || !usable(shape, cause)) {
+            fail(std::to_string(elements) + " elements cannot carry the shape: " + cause);
+        }
+        shape.z.array() -= discretization.measures(shape).centroid;
+        configuration_.shape = std::move(shape);
+        configuration_.tension.resize(0);
+        motion_.resize(0);
+    }
+
     /// One time step. Throws SimulationFailure, leaving the state as it was.
     const Record& step() {
         Index rejected = 0;
@@ -205,16 +220,24 @@ class Simulator {
     }
 
   private:
-    static constexpr bool estimates_error =
+    static constexpr bool has_estimate =
         requires(Integrator & integrator, SceneType& scene, const Configuration<Scalar>& start, Scalar dt) {
         { integrator.step(scene, start, dt).error } -> std::convertible_to<Scalar>;
     };
+
+    bool estimates_error() const {
+        if constexpr (has_estimate && requires { integrator_.estimates_error(); }) {
+            return integrator_.estimates_error();
+        } else {
+            return has_estimate;
+        }
+    }
 
     /// From a step to the longest one that should meet the tolerance: the estimate, the error of the order below, grows
     /// like dt^order.
     Scalar step_factor(const Scalar& error) const {
         using std::pow;
-        const Scalar wanted = pow(params_.step_tolerance / error, Scalar(1) / Scalar(Integrator::order));
+        const Scalar wanted = pow(params_.step_tolerance / error, Scalar(1) / Scalar(integrator_.order));
         // NaN and infinite errors end up at the lower bound.
         return wanted > Scalar(0.2) ? std::min(Scalar(Scalar(0.9) * wanted), Scalar(3)) : Scalar(0.2);
     }
@@ -254,9 +277,9 @@ class Simulator {
         Record& record = attempt.record;
         record.residual = step->instant.deformation_rate / std::max(Scalar(1), scene_.velocity_scale());
         record.velocity = step->instant.velocity;
-        if constexpr (estimates_error) {
+        if constexpr (has_estimate) {
             record.step_error = step->error;
-            if (!params_.time_step && !(step->error <= params_.step_tolerance)) {
+            if (estimates_error() && !params_.time_step && !(step->error <= params_.step_tolerance)) {
                 cause = "the step's error is " + text(step->error) + " R0";
                 retry_ = dt_ * std::min(Scalar(0.5), step_factor(step->error));
                 return std::nullopt;
@@ -271,7 +294,7 @@ class Simulator {
             attempt.motion.tail(next.shape.nodes()).array() -= record.velocity;
             next.tension = std::move(step->instant.solution.tension);
             const Scalar displacement = step->instant.deformation_rate * dt_;
-            if (!estimates_error && !params_.time_step && !(displacement <= 2 * params_.largest_displacement)) {
+            if (!estimates_error() && !params_.time_step && !(displacement <= 2 * params_.largest_displacement)) {
                 cause = "the membrane would move by " + text(displacement) + " R0";
                 return std::nullopt;
             }
@@ -317,7 +340,7 @@ class Simulator {
 
     /// In one step the film may lose at most half of its thickness.
     bool clear_of_wall(const Record& record, std::string& cause) const {
-        if (record.film_thickness_min > film_ / 2) {
+        if (record.film_thickness_min > film_ / 2 || std::isinf(static_cast<double>(film_))) {
             return true;
         }
         cause = record.film_thickness_min > Scalar(0) ? "the distance to the wall would shrink from " + text(film_) +
@@ -378,7 +401,7 @@ class Simulator {
         if (params_.time_step) {
             return;
         }
-        if constexpr (estimates_error) {
+        if (estimates_error()) {
             dt_ *= attempt.record.rejected > 0 ? std::min(Scalar(1), step_factor(attempt.record.step_error))
                                                : step_factor(attempt.record.step_error);
         } else {

@@ -148,6 +148,10 @@ class LinearElements : public SplineGeometry<S> {
     /// The kernel's smooth part, for all targets at once.
     template <class Kernel>
     void add_regular_part(const Meridian<S>& targets, const Meridian<S>& m, const Kernel& kernel, Matrix<S>& g) const {
+        using std::isfinite;
+        if (!isfinite(kernel.tube_radius())) {
+            return;
+        }
         const S nearest = kernel.tube_radius() - targets.r.maxCoeff();
         kernel.regular(
             targets, [&](const S& distance) { return regular_quadrature(m, kernel.tube_radius(), nearest, distance); },

@@ -324,7 +324,11 @@ class SpectralMeridian : public SpectralGeometry<S> {
         /// are interpolated differently. Its singularities are the targets' images, as far behind the wall as the
         /// targets, at least `nearest`, are before it: panels are halved as for targets abreast of their middles.
         void add_regular_part(Matrix<S>& g) {
+            using std::isfinite;
             using std::sqrt;
+            if (!isfinite(kernel_.tube_radius())) {
+                return;
+            }
             const S nearest = kernel_.tube_radius() - targets_.r.maxCoeff();
             t_.clear();
             weights_.clear();

@@ -58,8 +58,13 @@ class SplineGeometry {
         if (!(spacing_distortion(shape, meshing_.spacing) > meshing_.largest_distortion)) {
             return false;
         }
-        shape = axistokes::redistribute(shape, meshing_.spacing, shape.elements());
+        shape = redistributed(shape, shape.elements());
         return true;
+    }
+
+    /// `elements` elements on the same curve, spaced as the parameters ask for. Throws InvalidArgument for fewer than 8.
+    Meridian<S> redistributed(const Meridian<S>& shape, Index elements) const {
+        return axistokes::redistribute(shape, meshing_.spacing, elements);
     }
 
   private:

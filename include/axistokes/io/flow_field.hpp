@@ -80,7 +80,10 @@ FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configur
                         const Instant<S, Surface>& instant, FlowGrid<S> grid = {}) {
     const auto& kernel = scene.kernel();
     if constexpr (requires { kernel.tube_radius(); }) {
-        grid.radius = kernel.tube_radius();
+        using std::isfinite;
+        if (isfinite(kernel.tube_radius())) {
+            grid.radius = kernel.tube_radius();
+        }
     }
     FlowField<S> field{detail::checked(grid), {}, {}, {}, {}};
     const Index count = grid.columns * grid.rows;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// How accurately and by which numerical methods a simulation runs: options common to the examples.
+#pragma once
+
+#include "program.hpp"
+#include <axistokes/accuracy.hpp>
+#include <axistokes/time/extrapolated_euler.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+
+namespace examples {
+
+struct MethodOptions {
+    std::optional<std::string> discretization;
+    std::optional<std::string> integrator;
+    std::string stationary = "march";
+    std::optional<std::string> preset;
+
+    void add_to(CLI::App& app) {
+        app.add_option("--discretization", discretization,
+                       "of the meridian: linear or spectral (default: linear; with --preset-accuracy spectral)");
+        app.add_option("--integrator", integrator,
+                       "euler, order2, order3, or adaptive: order3 with its step chosen from the tolerance\n"
+                       "(default: euler; with --preset-accuracy adaptive)");
+        app.add_option("--stationary", stationary,
+                       "march in time to the stationary state, or newton after a few time steps")
+            ->capture_default_str();
+        app.add_option("--preset-accuracy", preset,
+                       "fast (1e-3), balanced (1e-6) or reference (1e-10): every tolerance and the number of elements");
+    }
+
+    /// Throws InvalidArgument for a value that is none of those offered.
+    void check() const {
+        using axistokes::detail::require;
+        if (discretization) {
+            require(*discretization == "linear" || *discretization == "spectral", "--discretization", *discretization,
+                    "linear or spectral");
+        }
+        if (integrator) {
+            require(*integrator == "euler" || *integrator == "order2" || *integrator == "order3" ||
+                        *integrator == "adaptive",
+                    "--integrator", *integrator, "euler, order2, order3 or adaptive");
+        }
+        require(stationary == "march" || stationary == "newton", "--stationary", stationary, "march or newton");
+        if (preset) {
+            require(*preset == "fast" || *preset == "balanced" || *preset == "reference", "--preset-accuracy", *preset,
+                    "fast, balanced or reference");
+        }
+    }
+
+    bool spectral() const { return discretization.value_or(preset ? "spectral" : "linear") == "spectral"; }
+    bool newton() const { return stationary == "newton"; }
+    std::string integrator_name() const { return integrator.value_or(preset ? "adaptive" : "euler"); }
+
+    axistokes::ExtrapolatedEulerOfOrder steps() const {
+        const std::string name = integrator_name();
+        return axistokes::ExtrapolatedEulerOfOrder(name == "euler" ? 1 : name == "order2" ? 2 : 3);
+    }
+
+    std::optional<axistokes::Accuracy<double>> accuracy() const {
+        return preset ? std::optional(axistokes::Accuracy<double>::preset(*preset)) : std::nullopt;
+    }
+
+    void describe(nlohmann::ordered_json& summary) const {
+        summary["discretization"] = spectral() ? "spectral" : "linear";
+        summary["integrator"] = integrator_name();
+        if (preset) {
+            summary["preset_accuracy"] = *preset;
+        }
+    }
+};
+
+}  // namespace examples

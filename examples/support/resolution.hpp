@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// How many elements an accuracy takes.
+#pragma once
+
+#include "options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace examples {
+
+/// A discretisation that tells from one shape whether it is resolved.
+template <class Discretization>
+constexpr bool judges_itself = requires(const Discretization& d, const axistokes::Meridian<double>& shape) {
+    { d.unresolved(shape) } -> std::convertible_to<double>;
+};
+
+/// First and largest number of elements that are tried.
+template <class Discretization>
+constexpr axistokes::Index first_elements = judges_itself<Discretization> ? 16 : 32;
+template <class Discretization>
+constexpr axistokes::Index most_elements = judges_itself<Discretization> ? 160 : 256;
+
+/// The next number of modes when the share `now` of the last ones is to fall to `wanted`: they decay geometrically.
+inline axistokes::Index more_modes(axistokes::Index elements, double now, double wanted, axistokes::Index most) {
+    const double n = static_cast<double>(elements);
+    const double needed = n * std::log(wanted / 3) / std::log(std::min(now, 0.5));
+    const auto next = static_cast<axistokes::Index>(std::ceil(std::clamp(needed, 1.2 * n, 1.6 * n)));
+    return std::min(next, most);
+}
+
+/// The next number of elements of second order that reduces an error to the one wanted.
+inline axistokes::Index more_elements(axistokes::Index elements, double error, double wanted, axistokes::Index most) {
+    const double n = static_cast<double>(elements);
+    const double needed = 1.1 * n * std::sqrt(error / wanted);
+    return std::min(static_cast<axistokes::Index>(std::ceil(std::clamp(needed, 1.3 * n, 2 * n))), most);
+}
+
+/// What an accuracy is about: the relative errors of velocity and length.
+struct Measured {
+    double velocity;
+    double length;
+    axistokes::Index elements;
+};
+
+/// The error of the finer of two second-order results.
+inline double second_order_error(const Measured& coarse, const Measured& fine) {
+    const double ratio = static_cast<double>(fine.elements) / static_cast<double>(coarse.elements);
+    const double velocity = std::abs(fine.velocity - coarse.velocity) / std::max(std::abs(fine.velocity), 1e-3);
+    const double length = std::abs(fine.length - coarse.length) / fine.length;
+    return std::max(velocity, length) / (ratio * ratio - 1);
+}
+
+}  // namespace examples

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: MIT
+// Runs a vesicle to its end, whatever that is: in time or by Newton's method, with as many elements as the accuracy
+// takes.
+#pragma once
+
+#include "progress.hpp"
+#include "resolution.hpp"
+#include "run.hpp"
+#include "tube.hpp"
+#include "vesicle_case.hpp"
+#include <axistokes/membrane/vesicle.hpp>
+#include <axistokes/simulator.hpp>
+#include <axistokes/solver/dense.hpp>
+#include <axistokes/time/stationary_solver.hpp>
+#include <axistokes/wall/no_wall.hpp>
+
+#include <chrono>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace examples {
+
+template <class Discretization, class Kernel, class Wall>
+class VesicleRun {
+    using Index = axistokes::Index;
+    using Shape = axistokes::Meridian<double>;
+    using Simulator =
+        axistokes::Simulator<Kernel, Discretization, axistokes::Vesicle<double>, Drive,
+                             axistokes::ExtrapolatedEulerOfOrder, axistokes::DenseLU<double>, Wall>;
+    using Solver = axistokes::StationarySolver<typename Simulator::SceneType>;
+    using Failure = axistokes::SimulationFailure;
+    static constexpr bool spectral = judges_itself<Discretization>;
+
+  public:
+    VesicleRun(const VesicleCase& c, Kernel kernel, Wall wall)
+        : case_(c),
+          run_(c.run),
+          params_(run_.params()),
+          accuracy_(run_.method.accuracy()),
+          discretization_(discretization(accuracy_)),
+          kernel_(std::move(kernel)),
+          wall_(std::move(wall)),
+          frames_(run_.frame_times),
+          approach_(params_.tolerance) {
+        start(run_.adapts() ? first_elements<Discretization> : run_.elements_or(spectral ? 32 : 64));
+    }
+
+    int operator()() {
+        if (!run_.directory.empty()) {
+            axistokes::create_output_directory(run_.directory);  // better now than after the run
+        }
+        const auto begin = std::chrono::steady_clock::now();
+        {
+            const InterruptGuard guard;
+            ProgressBar bar;
+            guard_ = &guard;
+            bar_ = &bar;
+            try {
+                if (run_.method.newton()) {
+                    newton();
+                } else {
+                    march_to_the_end();
+                    ending_.take(*simulator_);
+                }
+            } catch (const Failure& failure) {
+                ending_.take(*simulator_);
+                ending_.failure = failure.what();
+            }
+            ending_.interrupted = guard.interrupted();
+        }
+        ending_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return conclude(*simulator_, ending_, run_, frames_.frames(), summary());
+    }
+
+  private:
+    static Discretization discretization(const std::optional<axistokes::Accuracy<double>>& accuracy) {
+        typename Discretization::Params params;
+        if (accuracy) {
+            params.tolerance = accuracy->quadrature;
+        }
+        return Discretization(params);
+    }
+
+    double exact_area() const { return 4 * std::numbers::pi + case_.excess_area; }
+    static double exact_volume() { return 4 * std::numbers::pi / 3; }
+
+    /// (Re)starts from the initial shape, of exact area and volume where they can be had.
+    void start(Index elements) {
+        Shape shape;
+        if constexpr (spectral) {
+            shape = discretization_.redistributed(case_.initial(std::max<Index>(128, 2 * elements)), elements);
+            Shape exact = shape;
+            if (case_.excess_area > 0 && discretization_.restore(exact, exact_area(), exact_volume())) {
+                shape = std::move(exact);
+            }
+        } else {
+            shape = case_.initial(elements);
+        }
+        simulator_.emplace(shape, case_.drive, params_, kernel_, discretization_, axistokes::Vesicle<double>{},
+                           run_.method.steps(), axistokes::DenseLU<double>{}, wall_);
+        frames_ = FramesAt(run_.frame_times);
+        frames_.visit(0, *simulator_);
+    }
+
+    Index elements() const { return simulator_->configuration().shape.elements(); }
+    Index steps() const { return static_cast<Index>(simulator_->history().size()); }
+    static constexpr Index most() { return most_elements<Discretization>; }
+
+    /// Share of the last modes that may remain: on the way to a stationary state the residual's size will do.
+    double allowed(double residual) const {
+        const double least = accuracy_->unresolved;
+        return run_.transient() ? least : std::max(least, std::min(5e-3, residual));
+    }
+
+    /// Steps until the residual is below `residual`, until `last` steps or the end of the run; with more modes as soon
+    /// as the shape needs them.
+    void march(double residual, Index last) {
+        Simulator& s = *simulator_;
+        bool going = true;
+        const auto observe = [&](const auto& record) {
+            std::ostringstream text;
+            text << "step " << record.step << "  time " << record.time << "  residual " << record.residual;
+            frames_.visit(record.time, s);
+            const double by_time = record.time / params_.longest_time;
+            const double by_steps = static_cast<double>(record.step) / static_cast<double>(params_.most_steps);
+            bar_->show(std::max({approach_.fraction(record.residual), by_time, by_steps}), text.str());
+            going = !(record.residual < residual) && record.step < last && record.time < params_.longest_time &&
+                    !guard_->interrupted();
+            return going && !needs_modes(record.residual);
+        };
+        while (going) {
+            s.run(observe);
+            if (needs_modes(s.history().back().residual) && !guard_->interrupted()) {
+                add_modes(s.history().back().residual);
+                going = s.history().back().time < params_.longest_time && steps() < last;
+            } else {
+                going = going && !s.stationary();
+            }
+        }
+    }
+
+    bool needs_modes(double residual) const {
+        if constexpr (spectral) {
+            return run_.adapts() && elements() < most() &&
+                   discretization_.unresolved(simulator_->configuration().shape) > allowed(residual);
+        } else {
+            return false;
+        }
+    }
+    void add_modes(double residual) {
+        if constexpr (spectral) {
+            const double now = discretization_.unresolved(simulator_->configuration().shape);
+            simulator_->refine(more_modes(elements(), now, allowed(residual), most()));
+        }
+    }
+
+    void march_to_the_end() {
+        const auto march_on = [&] { march(params_.tolerance, params_.most_steps); };
+        march_on();
+        if constexpr (spectral) {
+            judge(simulator_->configuration().shape);
+        } else if (run_.adapts()) {
+            Measured coarse = measured(simulator_->configuration().shape, simulator_->history().back().velocity);
+            double error = 1;  // unknown
+            while (!guard_->interrupted()) {
+                const Index next = more_elements(coarse.elements, error, accuracy_->eps, most());
+                run_.transient() ? start(next) : simulator_->refine(next);
+                march_on();
+                const Measured fine =
+                    measured(simulator_->configuration().shape, simulator_->history().back().velocity);
+                error = second_order_error(coarse, fine);
+                coarse = fine;
+                report_error(error);
+                if (error <= accuracy_->eps || fine.elements >= most()) {
+                    break;
+                }
+            }
+        }
+    }
+
+    Measured measured(const Shape& shape, double velocity) const {
+        // Nothing drives a vesicle at rest: its velocity is no result.
+        const bool driven = simulator_->scene().velocity_scale() > 0;
+        return {driven ? velocity : 0.0, shape.z[shape.nodes() - 1] - shape.z[0], shape.elements()};
+    }
+
+    void report_error(double error) {
+        details_["error_estimate"] = error;
+        if (accuracy_) {
+            details_["error_met"] = error <= accuracy_->eps;
+        }
+    }
+    void judge(const Shape& shape) {
+        if constexpr (spectral) {
+            report_error(discretization_.unresolved(shape) / 10);
+        }
+    }
+
+    /// Time steps until a Newton iteration converges; if none does, time steps to the end.
+    void newton() {
+        constexpr int attempts = 4;
+        double handover = 3e-2;
+        for (int attempt = 0; attempt < attempts && !guard_->interrupted(); ++attempt) {
+            march(std::max(handover, params_.tolerance), std::min<Index>(steps() + 40, params_.most_steps));
+            try {
+                converge();
+                details_.erase("newton_failure");
+                return;
+            } catch (const Failure& failure) {
+                details_["newton_failure"] = failure.what();
+            }
+            handover = std::min(handover, simulator_->history().back().residual) / 5;
+        }
+        march_to_the_end();
+        ending_.take(*simulator_);
+    }
+
+    typename Solver::Params solver_params() const {
+        typename Solver::Params params;
+        params.tolerance = run_.tolerance ? *run_.tolerance : accuracy_ ? accuracy_->residual : params.tolerance;
+        return params;
+    }
+
+    /// The stationary state near the simulator's, with more and more elements if these are to be chosen. What a finer
+    /// one fails to improve stays.
+    void converge() {
+        Solver solver(simulator_->scene(), solver_params());
+        const double area = simulator_->initial_area();
+        const double volume = simulator_->initial_volume();
+        auto state = solver.solve(simulator_->configuration().shape, area, volume);
+        Index iterations = state.iterations;
+        Index evaluations = state.evaluations;
+        adopt(state);
+        bool examined = !run_.adapts();
+        double error = 1;
+        while (run_.adapts() && !guard_->interrupted()) {
+            const Shape& shape = state.configuration.shape;
+            const Index now = shape.elements();
+            Index next = 0;
+            if constexpr (spectral) {
+                error = discretization_.unresolved(shape) / 10;
+                report_error(error);
+                next = more_modes(now, 10 * error, accuracy_->unresolved, most());
+            } else {
+                next = more_elements(now, error, accuracy_->eps, most());
+            }
+            // Growth rates need no more than a recognisable shape, and cost as much as many iterations.
+            if (!examined && (!spectral || error < 1e-3 || now >= most())) {
+                examine(solver, state);
+                examined = true;
+            }
+            if (error <= accuracy_->eps || now >= most()) {
+                break;
+            }
+            try {
+                auto finer = solver.solve(discretization_.redistributed(shape, next), area, volume);
+                iterations += finer.iterations;
+                evaluations += finer.evaluations;
+                if constexpr (!spectral) {
+                    error = second_order_error(measured(shape, state.instant.velocity),
+                                               measured(finer.configuration.shape, finer.instant.velocity));
+                    report_error(error);
+                }
+                state = std::move(finer);
+                adopt(state);
+            } catch (const Failure& failure) {
+                details_["refinement_failure"] = failure.what();
+                break;
+            }
+        }
+        if (!run_.adapts()) {
+            judge(state.configuration.shape);
+            examine(solver, state);
+        } else if (!examined) {
+            examine(solver, state);
+        }
+        details_["newton_iterations"] = iterations;
+        details_["newton_evaluations"] = evaluations;
+    }
+
+    void examine(Solver& solver, const typename Solver::State& state) {
+        const double rate = solver.growth_rates(state).front().real();
+        details_["stable"] = rate < 0;
+        details_["leading_growth_rate"] = rate;
+        details_["stability_elements"] = state.configuration.shape.elements();
+    }
+
+    void adopt(const typename Solver::State& state) {
+        ending_.configuration = state.configuration;
+        ending_.configuration.position = simulator_->configuration().position;
+        ending_.instant = state.instant;
+        ending_.velocity = state.instant.velocity;
+        ending_.residual = state.residual;
+        ending_.pressure_drop = state.instant.pressure_drop;
+        ending_.stationary = true;
+    }
+
+    nlohmann::ordered_json summary() const {
+        nlohmann::ordered_json summary = summarize(*simulator_, ending_);
+        run_.method.describe(summary);
+        summary["method_stationary"] = run_.method.stationary;
+        summary.update(details_);
+        if (case_.surroundings.tube_radius) {
+            summary.update(tube_summary(*simulator_, ending_, case_.mean_velocity));
+        }
+        summary["parameters"] = case_.parameters;
+        return summary;
+    }
+
+    VesicleCase case_;
+    RunOptions run_;
+    axistokes::SimulationParams<double> params_;
+    std::optional<axistokes::Accuracy<double>> accuracy_;
+    Discretization discretization_;
+    Kernel kernel_;
+    Wall wall_;
+    std::optional<Simulator> simulator_;
+    FramesAt frames_;
+    Approach approach_;
+    Ending<Simulator> ending_;
+    nlohmann::ordered_json details_ = nlohmann::ordered_json::object();
+    const InterruptGuard* guard_ = nullptr;
+    ProgressBar* bar_ = nullptr;
+};
+
+/// Without a meshed wall.
+template <class Discretization>
+int run_in(const VesicleCase& c) {
+    const auto accuracy = c.run.method.accuracy();
+    return VesicleRun<Discretization, OptionalTubeKernel, axistokes::NoWall>(
+        c, c.surroundings.kernel(accuracy ? std::optional(accuracy->kernel) : std::nullopt), {})();
+}
+
+template <class Discretization>
+int run_in_mesh(const VesicleCase& c) {
+    return VesicleRun<Discretization, axistokes::FreeSpaceKernel<double>,
+                      axistokes::WallMesh<axistokes::StraightTube<double>>>(c, {}, c.surroundings.mesh())();
+}
+
+}  // namespace examples
