@@ -35,11 +35,38 @@ def read_table(path):
     return {name: values[:, i] for i, name in enumerate(rows[0])}
 
 
+def trigonometric(values, odd, factor):
+    """Values at t = j pi/N of a sine (odd) or cosine series, at factor times as many t."""
+    n = len(values) - 1
+    k = np.arange(n + 1)
+    t = np.pi * np.arange(factor * n + 1) / (factor * n)
+    basis = np.sin if odd else np.cos
+    return basis(np.outer(t, k[1:-1] if odd else k)) @ np.linalg.solve(
+        basis(np.pi * np.outer(k[1:-1] if odd else k, k[1:-1] if odd else k) / n), values[1:-1] if odd else values)
+
+
+def smooth(shape, factor=8):
+    """A table of a spectral shape's nodes, evaluated between them: radial components are sine series, others cosine
+    series; the arc length is a multiple of t plus a sine series."""
+    fine = {}
+    for name, values in shape.items():
+        if name == "arc_length":
+            ramp = np.linspace(values[0], values[-1], len(values))
+            fine[name] = np.linspace(values[0], values[-1], factor * (len(values) - 1) + 1)
+            fine[name] += trigonometric(values - ramp, True, factor)
+        else:
+            fine[name] = trigonometric(values, name == "r" or name.endswith("_r"), factor)
+    return fine
+
+
 def read_run(directory):
     directory = pathlib.Path(directory)
     with open(directory / "summary.json") as file:
         summary = json.load(file)
-    return summary, read_table(directory / "shape.csv"), read_table(directory / "history.csv")
+    shape = read_table(directory / "shape.csv")
+    if summary.get("discretization") == "spectral":
+        shape = smooth(shape)
+    return summary, shape, read_table(directory / "history.csv")
 
 
 def read_flow(path):

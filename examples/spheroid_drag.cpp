@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The drag on a rigid spheroid that translates along its axis, against the analytic one.
-#include "support/run.hpp"
-#include <axistokes/axistokes.hpp>
+#include "support/body_case.hpp"
 
 #include <cmath>
 #include <numbers>
 
 namespace {
-
-using namespace axistokes;
 
 /// Force over velocity, in eta R0, of a spheroid with semi-axes a (equatorial) and c (polar). With k = 1 - (a/c)^2 the
 /// integrals of Oberbeck's ellipsoid (Happel & Brenner 1983, section 5-11) become
@@ -33,27 +30,38 @@ double analytic_drag(double a, double c) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    using Falling = Simulator<FreeSpaceKernel<double>, LinearElements<double>, RigidBody<double>, Gravity<double>,
-                              ExplicitEuler, DenseLU<double>>;
-
+    using axistokes::Index;
     CLI::App app{"Drag on a rigid spheroid of volume 4 pi/3 that translates along its axis in an unbounded fluid"};
     examples::RunOptions run;
     double aspect = 2;
     examples::add_number(app, "--aspect", aspect, "polar over equatorial semi-axis (> 1: prolate)");
-    examples::add_number(app, "--elements", run.elements, "elements on the meridian");
+    examples::add_number(
+        app, "--elements", run.elements,
+        "elements, or modes, on the meridian (default: 64, spectral 32; with --preset-accuracy as many "
+        "as it takes)");
+    run.method.add_to(app, true);
     run.add_output_to(app);
 
     return examples::run_program("spheroid_drag", app, argc, argv, [&] {
-        const auto params = run.params();
-        Falling simulator(spheroid_of_aspect<double>(aspect, run.elements), Gravity<double>(1), params);
-        const auto drag = [&](const auto&, const auto& instant) -> nlohmann::ordered_json {
-            const Index nodes = instant.surface.size();
-            const double force = instant.surface.weight.dot(instant.solution.force.tail(nodes));
+        run.method.check();
+        const auto accuracy = run.method.accuracy();
+        const auto drag = [&](const examples::BodyMotion& motion) -> nlohmann::ordered_json {
+            const double force = motion.weight.dot(motion.force.tail(motion.nodes.nodes()));
             const double a = 1 / std::cbrt(aspect);
             const double exact = analytic_drag(a, aspect * a);
-            const double computed = force / instant.velocity;
+            const double computed = force / motion.velocity;
             return {{"drag", computed}, {"analytic_drag", exact}, {"relative_error", computed / exact - 1}};
         };
-        return examples::run_to_end(simulator, run, {{"aspect", aspect}, {"bond", 1}}, drag);
+        return examples::run_body(
+            {run,
+             [&](Index elements) { return axistokes::spheroid_of_aspect<double>(aspect, elements); },
+             run.method.spectral() ? 32 : 64,
+             accuracy                ? accuracy->quadrature
+             : run.method.spectral() ? 1e-10
+                                     : 1e-6,
+             axistokes::Gravity<double>(1),
+             {},
+             drag,
+             {{"aspect", aspect}, {"bond", 1}}});
     });
 }

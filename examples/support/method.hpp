@@ -19,14 +19,18 @@ struct MethodOptions {
     std::string stationary = "march";
     std::optional<std::string> preset;
 
-    void add_to(CLI::App& app) {
+    /// `rigid`: the integrator and the way to the stationary state are accepted, and make no difference.
+    void add_to(CLI::App& app, bool rigid = false) {
+        const std::string idle = rigid ? "; a rigid body takes one solution in any case" : "";
         app.add_option("--discretization", discretization,
                        "of the meridian: linear or spectral (default: linear; with --preset-accuracy spectral)");
-        app.add_option("--integrator", integrator,
-                       "euler, order2, order3, or adaptive: order3 with its step chosen from the tolerance\n"
-                       "(default: euler; with --preset-accuracy adaptive)");
+        app.add_option(
+            "--integrator", integrator,
+            std::string("euler, order2, order3, or adaptive: order3 with its step chosen from the tolerance\n"
+                        "(default: euler; with --preset-accuracy adaptive)") +
+                idle);
         app.add_option("--stationary", stationary,
-                       "march in time to the stationary state, or newton after a few time steps")
+                       std::string("march in time to the stationary state, or newton after a few time steps") + idle)
             ->capture_default_str();
         app.add_option("--preset-accuracy", preset,
                        "fast (1e-3), balanced (1e-6) or reference (1e-10): every tolerance and the number of elements");

@@ -30,9 +30,10 @@ struct RunOptions {
     std::vector<double> frame_times;
 
     void add_to(CLI::App& app) {
-        add_number(app, "--elements", elements,
-                   "elements, or modes, on the meridian (default: 64, spectral 32; with --preset-accuracy as many as it "
-                   "takes)");
+        add_number(
+            app, "--elements", elements,
+            "elements, or modes, on the meridian (default: 64, spectral 32; with --preset-accuracy as many as it "
+            "takes)");
         add_number(app, "--tolerance", tolerance, "stationary when the residual is below this (default: 1e-5)");
         method.add_to(app);
         add_output_to(app);

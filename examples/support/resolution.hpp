@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace examples {
 
@@ -34,6 +35,18 @@ inline axistokes::Index more_elements(axistokes::Index elements, double error, d
     const double n = static_cast<double>(elements);
     const double needed = 1.1 * n * std::sqrt(error / wanted);
     return std::min(static_cast<axistokes::Index>(std::ceil(std::clamp(needed, 1.3 * n, 2 * n))), most);
+}
+
+/// A series wants its nodes spaced by itself: the initial shapes' spacing has kinks that it would have to resolve.
+template <class Discretization>
+axistokes::Meridian<double> nodes_of(const Discretization& discretization,
+                                     const std::function<axistokes::Meridian<double>(axistokes::Index)>& shape,
+                                     axistokes::Index elements) {
+    if constexpr (judges_itself<Discretization>) {
+        return discretization.redistributed(shape(std::max<axistokes::Index>(128, 2 * elements)), elements);
+    } else {
+        return shape(elements);
+    }
 }
 
 /// What an accuracy is about: the relative errors of velocity and length.

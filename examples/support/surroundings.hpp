@@ -20,8 +20,8 @@ class Drive {
     using Scalar = double;
     static constexpr bool has_flow = true;
     static constexpr bool has_load = true;
-    using Choice = std::variant<axistokes::Quiescent<double>, axistokes::Gravity<double>,
-                                axistokes::Poiseuille<double>, axistokes::UnboundedPoiseuille<double>>;
+    using Choice = std::variant<axistokes::Quiescent<double>, axistokes::Gravity<double>, axistokes::Poiseuille<double>,
+                                axistokes::UnboundedPoiseuille<double>>;
 
     Drive(Choice choice) : choice_(choice) {}
 

@@ -3,14 +3,13 @@
 // takes.
 #pragma once
 
+#include "compiled.hpp"
 #include "progress.hpp"
 #include "resolution.hpp"
 #include "run.hpp"
 #include "tube.hpp"
 #include "vesicle_case.hpp"
-#include <axistokes/membrane/vesicle.hpp>
 #include <axistokes/simulator.hpp>
-#include <axistokes/solver/dense.hpp>
 #include <axistokes/time/stationary_solver.hpp>
 #include <axistokes/wall/no_wall.hpp>
 
@@ -27,9 +26,8 @@ template <class Discretization, class Kernel, class Wall>
 class VesicleRun {
     using Index = axistokes::Index;
     using Shape = axistokes::Meridian<double>;
-    using Simulator =
-        axistokes::Simulator<Kernel, Discretization, axistokes::Vesicle<double>, Drive,
-                             axistokes::ExtrapolatedEulerOfOrder, axistokes::DenseLU<double>, Wall>;
+    using Simulator = axistokes::Simulator<Kernel, Discretization, Vesicle<Discretization>, Drive,
+                                           axistokes::ExtrapolatedEulerOfOrder, axistokes::DenseLU<double>, Wall>;
     using Solver = axistokes::StationarySolver<typename Simulator::SceneType>;
     using Failure = axistokes::SimulationFailure;
     static constexpr bool spectral = judges_itself<Discretization>;
@@ -89,17 +87,12 @@ class VesicleRun {
 
     /// (Re)starts from the initial shape, of exact area and volume where they can be had.
     void start(Index elements) {
-        Shape shape;
-        if constexpr (spectral) {
-            shape = discretization_.redistributed(case_.initial(std::max<Index>(128, 2 * elements)), elements);
-            Shape exact = shape;
-            if (case_.excess_area > 0 && discretization_.restore(exact, exact_area(), exact_volume())) {
-                shape = std::move(exact);
-            }
-        } else {
-            shape = case_.initial(elements);
+        Shape shape = nodes_of(discretization_, case_.initial, elements);
+        Shape exact = shape;
+        if (spectral && case_.excess_area > 0 && discretization_.restore(exact, exact_area(), exact_volume())) {
+            shape = std::move(exact);
         }
-        simulator_.emplace(shape, case_.drive, params_, kernel_, discretization_, axistokes::Vesicle<double>{},
+        simulator_.emplace(shape, case_.drive, params_, kernel_, discretization_, Vesicle<Discretization>{},
                            run_.method.steps(), axistokes::DenseLU<double>{}, wall_);
         frames_ = FramesAt(run_.frame_times);
         frames_.visit(0, *simulator_);

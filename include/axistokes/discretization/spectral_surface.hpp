@@ -17,6 +17,7 @@ struct SpectralSurface {
     using Operator = Matrix<S>;
 
     Meridian<S> nodes;
+    Vector<S> arc_length;       // at the nodes, from the lower pole
     Vector<S> speed;            // |dx/dt|
     Vector<S> weight;           // quadrature weights of Int dA at the nodes
     Vector<S> volume_gradient;  // 2n: dV/dx of the volume inside the curve; the counterpart of weight * n
@@ -122,6 +123,16 @@ class SpectralSurfaceBuilder {
         s_.normal_r[0] = s_.normal_r[n_ - 1] = 0;
         s_.normal_z[0] = -1;
         s_.normal_z[n_ - 1] = 1;
+        // The integral of a cosine series, a_0 t + sum_k (a_k/k) sin kt.
+        Vector<S> integral = basis_->even_coefficients() * s_.speed;
+        for (Index k = 1; k < n_; ++k) {
+            integral[k] /= S(k);
+        }
+        s_.arc_length.resize(n_);
+        for (Index i = 0; i < n_; ++i) {
+            const S t = basis_->nodes()[i];
+            s_.arc_length[i] = integral[0] * t + sine_series<S>(integral, t);
+        }
         // dA = 2 pi r |x'| dt with r/sin t even; at a pole r/sin t is the slope |x'|.
         s_.weight.resize(n_);
         for (Index i = 0; i < n_; ++i) {

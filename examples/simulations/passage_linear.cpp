@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#include "../support/passage_run.hpp"
+
+int examples::pass_linear(const PassageOptions& options) {
+    return pass<LinearElements>(options);
+}
