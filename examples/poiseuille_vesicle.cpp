@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A vesicle on the axis of a Poiseuille flow: in a tube, or in the middle of one so wide that its walls do not matter.
-#include "support/tube.hpp"
+#include "support/command_line.hpp"
 #include "support/vesicle_case.hpp"
 #include "support/wall.hpp"
 

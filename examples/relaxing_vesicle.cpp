@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A vesicle in a fluid at rest relaxes to a minimum of its bending energy.
+#include "support/command_line.hpp"
 #include "support/vesicle_case.hpp"
 
 #include <cmath>

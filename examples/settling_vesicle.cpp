@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A vesicle, heavier than the fluid, settles along its axis until it is stationary, in an unbounded fluid or in a tube.
-#include "support/tube.hpp"
+#include "support/command_line.hpp"
 #include "support/vesicle_case.hpp"
 
 int main(int argc, char** argv) {

@@ -2,7 +2,7 @@
 // A rigid sphere on the axis of a tube: drag factor K in fluid at rest; velocity and added pressure drop in Poiseuille
 // flow; the traction along the meridian.
 #include "support/body_case.hpp"
-#include "support/tube.hpp"
+#include "support/command_line.hpp"
 #include "support/wall.hpp"
 #include <axistokes/io/csv.hpp>
 

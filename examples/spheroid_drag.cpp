@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The drag on a rigid spheroid that translates along its axis, against the analytic one.
 #include "support/body_case.hpp"
+#include "support/command_line.hpp"
 
 #include <cmath>
 #include <numbers>

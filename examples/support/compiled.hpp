@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Policies whose costly templates are compiled once, in simulations/operators_*.cpp and membranes_*.cpp, for all the
-// programs that use them.
+// Policies whose costly templates are compiled once, in simulations/operators_*.cpp, membranes_*.cpp and newton*.cpp,
+// for all the programs that use them.
 #pragma once
 
 #include "surroundings.hpp"
@@ -8,7 +8,13 @@
 #include <axistokes/discretization/spectral_meridian.hpp>
 #include <axistokes/membrane/rigid_body.hpp>
 #include <axistokes/membrane/vesicle.hpp>
+#include <axistokes/scene.hpp>
 #include <axistokes/solver/dense.hpp>
+#include <axistokes/time/stationary_solver.hpp>
+#include <axistokes/wall/no_wall.hpp>
+
+#include <algorithm>
+#include <memory>
 
 namespace examples {
 
@@ -20,6 +26,13 @@ class Compiled : public Discretization {
     using Shape = axistokes::Meridian<double>;
     using Free = axistokes::FreeSpaceKernel<double>;
     using Discretization::Discretization;
+
+    /// The same with integrals as coarse as `tolerance`, or as they are.
+    Compiled loosened(double tolerance) const {
+        typename Discretization::Params params = this->params();
+        params.tolerance = std::max(params.tolerance, tolerance);
+        return Compiled(params);
+    }
 
     Surface surface(const Shape& meridian) const;
     axistokes::Matrix<double> single_layer(const Shape& meridian, const OptionalTubeKernel& kernel) const;
@@ -37,6 +50,26 @@ class CompiledMembrane : public Membrane {
                                               axistokes::DenseLU<double>& solver) const;
 };
 
+/// A StationarySolver.
+template <class Scene>
+class CompiledSolver {
+  public:
+    using Solver = axistokes::StationarySolver<Scene>;
+    using State = typename Solver::State;
+    using Params = typename Solver::Params;
+
+    CompiledSolver(const Scene& scene, const Params& params);
+    CompiledSolver(const CompiledSolver&) = delete;
+    CompiledSolver& operator=(const CompiledSolver&) = delete;
+    ~CompiledSolver();
+
+    State solve(const axistokes::Meridian<double>& shape, double area, double volume);
+    double leading_growth_rate(const State& state);
+
+  private:
+    std::unique_ptr<Solver> solver_;
+};
+
 using LinearElements = Compiled<axistokes::LinearElements<double>>;
 using SpectralMeridian = Compiled<axistokes::SpectralMeridian<double>>;
 template <class Discretization>
@@ -44,11 +77,23 @@ using Vesicle = CompiledMembrane<axistokes::Vesicle<double>, typename Discretiza
 template <class Discretization>
 using RigidBody = CompiledMembrane<axistokes::RigidBody<double>, typename Discretization::Surface>;
 
+template <class Discretization>
+using OpenScene = axistokes::Scene<OptionalTubeKernel, Discretization, Vesicle<Discretization>, Drive,
+                                   axistokes::DenseLU<double>, axistokes::NoWall>;
+template <class Discretization>
+using MeshedScene = axistokes::Scene<axistokes::FreeSpaceKernel<double>, Discretization, Vesicle<Discretization>, Drive,
+                                     axistokes::DenseLU<double>, axistokes::WallMesh<axistokes::StraightTube<double>>>;
+
 extern template class Compiled<axistokes::LinearElements<double>>;
 extern template class Compiled<axistokes::SpectralMeridian<double>>;
 extern template class CompiledMembrane<axistokes::Vesicle<double>, axistokes::LinearElements<double>::Surface>;
 extern template class CompiledMembrane<axistokes::Vesicle<double>, axistokes::SpectralMeridian<double>::Surface>;
 extern template class CompiledMembrane<axistokes::RigidBody<double>, axistokes::LinearElements<double>::Surface>;
 extern template class CompiledMembrane<axistokes::RigidBody<double>, axistokes::SpectralMeridian<double>::Surface>;
+
+extern template class CompiledSolver<OpenScene<LinearElements>>;
+extern template class CompiledSolver<OpenScene<SpectralMeridian>>;
+extern template class CompiledSolver<MeshedScene<LinearElements>>;
+extern template class CompiledSolver<MeshedScene<SpectralMeridian>>;
 
 }  // namespace examples

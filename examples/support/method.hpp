@@ -2,7 +2,6 @@
 // How accurately and by which numerical methods a simulation runs: options common to the examples.
 #pragma once
 
-#include "program.hpp"
 #include <axistokes/accuracy.hpp>
 #include <axistokes/time/extrapolated_euler.hpp>
 
@@ -10,6 +9,10 @@
 
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace examples {
 
@@ -20,21 +23,7 @@ struct MethodOptions {
     std::optional<std::string> preset;
 
     /// `rigid`: the integrator and the way to the stationary state are accepted, and make no difference.
-    void add_to(CLI::App& app, bool rigid = false) {
-        const std::string idle = rigid ? "; a rigid body takes one solution in any case" : "";
-        app.add_option("--discretization", discretization,
-                       "of the meridian: linear or spectral (default: linear; with --preset-accuracy spectral)");
-        app.add_option(
-            "--integrator", integrator,
-            std::string("euler, order2, order3, or adaptive: order3 with its step chosen from the tolerance\n"
-                        "(default: euler; with --preset-accuracy adaptive)") +
-                idle);
-        app.add_option("--stationary", stationary,
-                       std::string("march in time to the stationary state, or newton after a few time steps") + idle)
-            ->capture_default_str();
-        app.add_option("--preset-accuracy", preset,
-                       "fast (1e-3), balanced (1e-6) or reference (1e-10): every tolerance and the number of elements");
-    }
+    void add_to(CLI::App& app, bool rigid = false);
 
     /// Throws InvalidArgument for a value that is none of those offered.
     void check() const {

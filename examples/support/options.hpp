@@ -3,7 +3,6 @@
 #pragma once
 
 #include "method.hpp"
-#include "program.hpp"
 #include <axistokes/geometry/shapes.hpp>
 #include <axistokes/simulator.hpp>
 
@@ -29,30 +28,9 @@ struct RunOptions {
     bool flow_field = false;
     std::vector<double> frame_times;
 
-    void add_to(CLI::App& app) {
-        add_number(
-            app, "--elements", elements,
-            "elements, or modes, on the meridian (default: 64, spectral 32; with --preset-accuracy as many as it "
-            "takes)");
-        add_number(app, "--tolerance", tolerance, "stationary when the residual is below this (default: 1e-5)");
-        method.add_to(app);
-        add_output_to(app);
-        add_number(app, "--dt", time_step, "fixed time step (default: automatic)");
-        add_number(app, "--step-tolerance", step_tolerance,
-                   "error allowed in a time step, in R0, by integrators that estimate it (default: 1e-4)");
-        add_number(app, "--time", time, "stop at this time, stationary or not");
-        add_number(app, "--max-steps", steps, "stop after this many steps, stationary or not");
-        app.add_option("--frame-times", frame_times,
-                       "t1,t2,...: also write frames.csv, the first shape at or after each of these times")
-            ->delimiter(',')
-            ->check(number_check<double>("--frame-times"));
-    }
+    void add_to(CLI::App& app);
 
-    void add_output_to(CLI::App& app) {
-        app.add_option("--out", directory, "directory for summary.json, shape.csv and history.csv; created if missing");
-        app.add_flag("--vtk", vtk, "also write surface.vtp, for ParaView");
-        app.add_flag("--flow-field", flow_field, "also write flow.vts, the flow in a plane through the axis");
-    }
+    void add_output_to(CLI::App& app);
 
     /// Whether the number of elements is to follow from the accuracy.
     bool adapts() const { return method.preset && !elements; }
@@ -93,14 +71,9 @@ struct VesicleOptions {
     double excess_area = 0.6;
     std::string kind = "prolate";
 
-    void add_to(CLI::App& app) {
-        add_number(app, "--excess-area", excess_area, "area of the membrane minus 4 pi, in R0^2 (0: a sphere)");
-        add_kind_to(app);
-    }
+    void add_to(CLI::App& app);
 
-    void add_kind_to(CLI::App& app) {
-        app.add_option("--initial", kind, "initial shape: prolate or oblate spheroid")->capture_default_str();
-    }
+    void add_kind_to(CLI::App& app);
 
     axistokes::SpheroidKind spheroid_kind() const {
         axistokes::detail::require(kind == "prolate" || kind == "oblate", "initial shape", kind, "prolate or oblate");

@@ -2,6 +2,7 @@
 // What every example's main() does: parse the command line, run, and turn exceptions into one line and an exit code.
 #pragma once
 
+#include "exit_code.hpp"
 #include <axistokes/core.hpp>
 #include <axistokes/io/atomic_file.hpp>
 
@@ -15,8 +16,6 @@
 #include <type_traits>
 
 namespace examples {
-
-enum ExitCode { success = 0, internal_error = 1, bad_input = 2, simulation_failure = 3, interrupted = 130 };
 
 template <class Number>
 CLI::Validator number_check(const std::string& name) {

@@ -2,6 +2,7 @@
 // Writes what a run came to.
 #pragma once
 
+#include "exit_code.hpp"
 #include "frames.hpp"
 #include "options.hpp"
 #include "summary.hpp"

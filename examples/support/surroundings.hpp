@@ -7,6 +7,7 @@
 #include <axistokes/kernel/tube_filon.hpp>
 #include <axistokes/wall/wall_mesh.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -50,6 +51,17 @@ class OptionalTubeKernel : public axistokes::FreeSpaceKernel<double> {
     OptionalTubeKernel() = default;
     explicit OptionalTubeKernel(Tube tube) : tube_(std::move(tube)) {}
     explicit OptionalTubeKernel(FilonTube tube) : tube_(std::move(tube)) {}
+
+    /// The same with the error `tolerance`, or the present one if that is larger.
+    OptionalTubeKernel loosened(double tolerance) const {
+        const auto* tube = std::get_if<Tube>(&tube_);
+        if (!tube) {
+            return *this;
+        }
+        Tube::Params params = tube->params();
+        params.tolerance = std::max(params.tolerance, tolerance);
+        return OptionalTubeKernel(Tube(tube->tube_radius(), params));
+    }
 
     double tube_radius() const {
         return visit([](const auto& tube) { return tube.tube_radius(); }, std::numeric_limits<double>::infinity());

@@ -15,9 +15,7 @@ namespace examples {
 struct TubeOptions {
     std::optional<double> confinement;
 
-    void add_to(CLI::App& app, const std::string& without) {
-        add_number(app, "--confinement", confinement, "R0 over the tube's radius; without it " + without);
-    }
+    void add_to(CLI::App& app, const std::string& without);
 
     double radius() const {
         axistokes::detail::require(*confinement > 0 && std::isfinite(*confinement), "confinement", *confinement,

@@ -10,7 +10,6 @@
 #include "tube.hpp"
 #include "vesicle_case.hpp"
 #include <axistokes/simulator.hpp>
-#include <axistokes/time/stationary_solver.hpp>
 #include <axistokes/wall/no_wall.hpp>
 
 #include <chrono>
@@ -28,7 +27,7 @@ class VesicleRun {
     using Shape = axistokes::Meridian<double>;
     using Simulator = axistokes::Simulator<Kernel, Discretization, Vesicle<Discretization>, Drive,
                                            axistokes::ExtrapolatedEulerOfOrder, axistokes::DenseLU<double>, Wall>;
-    using Solver = axistokes::StationarySolver<typename Simulator::SceneType>;
+    using Solver = CompiledSolver<typename Simulator::SceneType>;
     using Failure = axistokes::SimulationFailure;
     static constexpr bool spectral = judges_itself<Discretization>;
 
@@ -275,7 +274,7 @@ class VesicleRun {
     }
 
     void examine(Solver& solver, const typename Solver::State& state) {
-        const double rate = solver.growth_rates(state).front().real();
+        const double rate = solver.leading_growth_rate(state);
         details_["stable"] = rate < 0;
         details_["leading_growth_rate"] = rate;
         details_["stability_elements"] = state.configuration.shape.elements();
