@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
         if (unbounded->count() > 0) {
             const auto initial = [&](axistokes::Index elements) { return vesicle.shape(elements); };
             const axistokes::UnboundedPoiseuille<double> flow(unbounded_capillary_number);
-            examples::VesicleCase c{run, initial, vesicle.excess_area, flow, {}, 0, {}};
+            examples::VesicleCase c{run, initial, vesicle.excess_area, examples::Drive(flow), {}, 0, {}};
             c.parameters = {{"excess_area", vesicle.excess_area},
                             {"unbounded_capillary_number", unbounded_capillary_number}};
             return examples::run_vesicle(c);
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
         tube.confinement = tube.confinement.value_or(1 / 0.9);
         const axistokes::Poiseuille<double> flow(capillary_number, tube.radius());
         const auto initial = [&](axistokes::Index elements) { return tube.shape(vesicle, elements); };
-        examples::VesicleCase c{run, initial, vesicle.excess_area, flow, {}, flow.mean_velocity(), {}};
+        examples::VesicleCase c{run, initial, vesicle.excess_area, examples::Drive(flow), {}, flow.mean_velocity(), {}};
         c.parameters = {
             {"excess_area", vesicle.excess_area}, {"capillary_number", capillary_number}, {"method", wall.method}};
         c.surroundings.tube_radius = tube.radius();

@@ -26,7 +26,8 @@ int main(int argc, char** argv) {
             vesicle.excess_area = 4 * std::numbers::pi * (std::pow(reduced_volume, -2.0 / 3) - 1);
         }
         const auto initial = [&](axistokes::Index elements) { return vesicle.shape(elements); };
-        examples::VesicleCase c{run, initial, vesicle.excess_area, axistokes::Quiescent<double>{}, {}, 0, {}};
+        examples::VesicleCase c{run, initial, vesicle.excess_area, examples::Drive(axistokes::Quiescent<double>{}), {},
+                                0,   {}};
         c.parameters = {{"excess_area", vesicle.excess_area}, {"initial", vesicle.kind}};
         return examples::run_vesicle(c);
     });

@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
         const auto initial = [&](axistokes::Index elements) {
             return tube.confinement ? tube.shape(vesicle, elements) : vesicle.shape(elements);
         };
-        examples::VesicleCase c{run, initial, vesicle.excess_area, axistokes::Gravity<double>(bond), {}, 0, {}};
+        examples::VesicleCase c{
+            run, initial, vesicle.excess_area, examples::Drive(axistokes::Gravity<double>(bond)), {}, 0, {}};
         c.parameters = {{"excess_area", vesicle.excess_area}, {"bond", bond}};
         if (tube.confinement) {
             c.surroundings.tube_radius = tube.radius();

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
              accuracy                ? accuracy->quadrature
              : run.method.spectral() ? 1e-10
                                      : 1e-6,
-             axistokes::Gravity<double>(1),
+             examples::Drive(axistokes::Gravity<double>(1)),
              {},
              drag,
              {{"aspect", aspect}, {"bond", 1}}});
