@@ -119,15 +119,14 @@ class VesicleRun {
             const double by_time = record.time / params_.longest_time;
             const double by_steps = static_cast<double>(record.step) / static_cast<double>(params_.most_steps);
             bar_->show(std::max({approach_.fraction(record.residual), by_time, by_steps}), text.str());
-            going = !(record.residual < residual) && record.step < last && record.time < params_.longest_time &&
-                    !guard_->interrupted();
+            going = !(record.residual < residual) && record.step < last && !s.finished() && !guard_->interrupted();
             return going && !needs_modes(record.residual);
         };
         while (going) {
             s.run(observe);
             if (needs_modes(s.history().back().residual) && !guard_->interrupted()) {
                 add_modes(s.history().back().residual);
-                going = s.history().back().time < params_.longest_time && steps() < last;
+                going = !s.finished() && steps() < last;
             } else {
                 going = going && !s.stationary();
             }
