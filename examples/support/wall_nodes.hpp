@@ -5,6 +5,7 @@
 #include <axistokes/wall/channel_mesh.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -18,14 +19,15 @@ inline const char* name_of(axistokes::WallGrading grading) {
 
 struct CheapestWall {
     axistokes::WallMeshParams<double> params;
-    axistokes::Index panels = 0;  // on the wall, without the ends
-    axistokes::Index nodes = std::numeric_limits<axistokes::Index>::max();
-    double error = 0;
+    axistokes::Index panels = 0;    // on the wall, without the ends
+    axistokes::Index nodes = 1000;  // more are not tried
+    double error = std::numeric_limits<double>::infinity();
 };
 
 /// Searches all combinations of gradings, nodes a panel, lengths (beyond the particle, in R0) and numbers of panels for
 /// the mesh of fewest nodes, those on the ends included, whose `error(params)` is below the accuracy; that of the next
-/// finer mesh must be, too, lest a change of sign passes for accuracy.
+/// finer mesh must be, too, lest a change of sign passes for accuracy. Where the error no longer depends on the number
+/// of panels the wall is too short. Put lengths and orders first that need few nodes: they cut the search short.
 template <class Error>
 CheapestWall cheapest_wall(const axistokes::StraightTube<double>& tube, const axistokes::Meridian<double>& particle,
                            double accuracy, const std::vector<axistokes::WallGrading>& gradings,
@@ -55,6 +57,9 @@ CheapestWall cheapest_wall(const axistokes::StraightTube<double>& tube, const ax
                     if (before < accuracy && now < accuracy) {
                         best = {params, panels_before, nodes_before, before};
                         best.params.panels = panels_before;
+                        break;
+                    }
+                    if (std::abs(now - before) < 1e-2 * before) {
                         break;
                     }
                     before = now;
