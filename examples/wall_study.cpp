@@ -38,10 +38,10 @@ TubeKernel<double> tube_kernel(double radius, double tolerance) {
     return TubeKernel<double>(radius, params);
 }
 
-/// A sphere settling under a unit load.
+/// A sphere that settles with unit velocity.
 struct Settling {
     Vector<double> traction;  // without its uniform pressure
-    double velocity;
+    double drag;              // over that of a uniform unit traction
 };
 
 Settling settle(const LinearSurface<double>& surface, const Matrix<double>& mobility) {
@@ -53,7 +53,7 @@ Settling settle(const LinearSurface<double>& surface, const Matrix<double>& mobi
     DenseLU<double> solver;
     const auto solution = RigidBody<double>().solve(
         MobilityProblem<double, LinearSurface<double>>{surface, mobility, none, load, tension, 0.0}, solver);
-    return {solution.force, solution.velocity[n]};
+    return {solution.force / solution.velocity[n], 1 / solution.velocity[n]};
 }
 
 Settling by_tube(const LinearElements<double>& discretization, const Meridian<double>& sphere,
@@ -112,8 +112,8 @@ class Comparison {
             repetitions, [&] { by_tube(coarse_, body_, kernel); }, [&] { by_wall(coarse_, body_, tube); });
         table.row(c.radius, c.elements, accuracy, mesh, examples::name_of(params.grading), tube.mesh()->upper() - 1,
                   tube.mesh()->curve().nodes_per_panel(), tube.mesh()->wall_panels(), tube.mesh()->curve().size(),
-                  largest_deviation(wall, exact_), wall.velocity / exact_.velocity - 1, kernel_tolerance_,
-                  kernel_error(), 1e3 * tube_seconds, 1e3 * wall_seconds, tube_seconds / wall_seconds, c.paper_nodes);
+                  largest_deviation(wall, exact_), wall.drag / exact_.drag - 1, kernel_tolerance_, kernel_error(),
+                  1e3 * tube_seconds, 1e3 * wall_seconds, tube_seconds / wall_seconds, c.paper_nodes);
     }
 
   private:
@@ -130,7 +130,7 @@ const std::vector<Index> kOrders{4, 3, 5, 6, 8, 2};
 
 const char* const kColumns =
     "tube_radius,sphere_elements,accuracy,mesh,grading,length_beyond_sphere,nodes_per_panel,wall_panels,nodes,"
-    "traction_error,velocity_error,kernel_tolerance,kernel_traction_error,tube_ms,wall_ms,tube_over_wall,paper_wall_"
+    "traction_error,drag_error,kernel_tolerance,kernel_traction_error,tube_ms,wall_ms,tube_over_wall,paper_wall_"
     "elements";
 
 /// The meshes chosen from a tolerance.
@@ -187,7 +187,7 @@ void decay(const std::string& directory) {
         Tube tube(StraightTube<double>(c.radius), params);
         const Settling settling = by_wall(discretization, body, tube);
         const auto field = tube.field(discretization, kernel, body, settling.traction);
-        report.add("sphere", c.radius, std::abs(settling.velocity), 0.5 * std::ceil(2.2 / c.radius), farthest, 1,
+        report.add("sphere", c.radius, 1.0, 0.5 * std::ceil(2.2 / c.radius), farthest, 1,
                    [&](const Meridian<double>& points) { return field.velocity(points); });
     }
 }
