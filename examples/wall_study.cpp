@@ -168,8 +168,8 @@ void nodes_needed(const std::string& directory, double accuracy) {
         search("fewest", {WallGrading::automatic, WallGrading::quadratic, WallGrading::uniform}, kOrders, lengths);
         search("fewest", {WallGrading::quadratic}, kOrders, lengths);
         search("fewest", {WallGrading::uniform}, kOrders, lengths);
-        search("order 2, paper's length", {WallGrading::quadratic}, {2}, {paper_length});
-        search("order 2, paper's length", {WallGrading::uniform}, {2}, {paper_length});
+        search("order 2 and the paper's length", {WallGrading::quadratic}, {2}, {paper_length});
+        search("order 2 and the paper's length", {WallGrading::uniform}, {2}, {paper_length});
     }
 }
 
