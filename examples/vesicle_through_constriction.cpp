@@ -128,6 +128,8 @@ int run(const Options& options, const Profile& profile) {
     double deviation = 0;
     std::string failure;
     bool passed = false;
+    bool interrupted = false;
+    constexpr double stuck = 1e-4;  // velocity over that of the flow in the throat
     const auto begin = std::chrono::steady_clock::now();
     {
         const examples::InterruptGuard guard;
@@ -153,6 +155,10 @@ int run(const Options& options, const Profile& profile) {
                     entered_or_left.push_back(record.time);
                 }
                 passed = record.position >= -start;
+                if (std::abs(record.velocity) < stuck * simulator.scene().velocity_scale()) {
+                    throw SimulationFailure("the vesicle is stuck at z = " + std::to_string(record.position) +
+                                            ": this flow rate does not press it through the throat");
+                }
                 std::ostringstream text;
                 text << "step " << record.step << "  z " << record.position << "  film " << record.film_thickness_min;
                 bar.show(way, text.str());
@@ -160,6 +166,11 @@ int run(const Options& options, const Profile& profile) {
         } catch (const SimulationFailure& error) {
             failure = error.what();
         }
+        interrupted = guard.interrupted();
+    }
+    if (!passed && !interrupted && failure.empty()) {
+        failure = "not through after " + std::to_string(options.most_steps) +
+                  " steps: the centroid is at z = " + std::to_string(simulator.configuration().position);
     }
     frames.add(simulator.history().empty() ? 0 : simulator.history().back().time, simulator.shape());
     deviation = std::max(deviation, flow_rate_deviation(simulator, options.flow_rate));
@@ -210,7 +221,7 @@ int run(const Options& options, const Profile& profile) {
     if (!failure.empty()) {
         throw SimulationFailure(failure);
     }
-    return passed ? examples::success : examples::simulation_failure;
+    return passed ? examples::success : examples::interrupted;
 }
 
 }  // namespace
