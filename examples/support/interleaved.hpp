@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Median times of two pieces of work, measured in turn so that other load on the machine meets both alike.
+// Median processor times of two pieces of work, measured in turn so that other load on the machine meets both alike.
 #pragma once
 
 #include <algorithm>
-#include <chrono>
+#include <cstddef>
+#include <ctime>
 #include <utility>
 #include <vector>
 
@@ -12,11 +13,12 @@ namespace examples {
 template <class First, class Second>
 std::pair<double, double> median_seconds(int repetitions, const First& first, const Second& second) {
     const auto seconds = [](const auto& work) {
-        const auto begin = std::chrono::steady_clock::now();
+        const std::clock_t begin = std::clock();
         work();
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     };
-    std::vector<double> of_first, of_second;
+    std::vector<double> of_first;
+    std::vector<double> of_second;
     for (int k = 0; k < repetitions; ++k) {
         of_first.push_back(seconds(first));
         of_second.push_back(seconds(second));
