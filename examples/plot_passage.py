@@ -89,7 +89,7 @@ def film_strip(directory, summary, wall, frames, history):
         axes = figure.add_subplot(grid[i, :])
         draw_channel(axes, wall, limits)
         axes.fill(z, r, zorder=3, **VESICLE)
-        axes.text(0.005, 0.5, f"t = {time:.3g}", transform=axes.transAxes, va="center",
+        axes.text(0.005, 0.9, f"t = {time:.3g}", transform=axes.transAxes, va="top",
                   bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.5})
     draw_history([figure.add_subplot(grid[len(frames), k]) for k in range(3)], history)
     figure.suptitle(title_of(summary), fontsize=11)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a meshed wall costs (docs/wall_mesh.md): how far a particle disturbs the flow in a tube, the wall nodes that a
-// settling sphere needs for an accuracy of its tractions, by kind of mesh, and the time compared with the tube kernel.
+// What a meshed wall costs (docs/wall_mesh.md): how far a settling sphere disturbs the flow in a tube, the wall nodes
+// needed for an accuracy of its tractions, by kind of mesh, and the time compared with the tube kernel.
+#include "support/interleaved.hpp"
 #include "support/program.hpp"
 #include "support/report.hpp"
+#include "support/wall_decay.hpp"
+#include "support/wall_nodes.hpp"
 #include <axistokes/axistokes.hpp>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -20,19 +21,30 @@ struct Case {
     double radius;   // of the tube
     Index elements;  // on the sphere
     double paper_length;
-    Index paper_wall_elements;
+    Index paper_nodes;
 };
 /// Trozzo et al. 2015, section 3.2.2: 0.1 % on the profile of the tractions.
 constexpr Case kCases[] = {{3.0, 100, 9.0, 690}, {2.0, 100, 7.0, 1820}, {1.1, 200, 5.0, 2921}};
 
-/// A sphere settling under a unit load, and what it costs to find out how.
+LinearElements<double> elements(double tolerance) {
+    LinearElements<double>::Params params;
+    params.tolerance = tolerance;
+    return LinearElements<double>(params);
+}
+
+TubeKernel<double> tube_kernel(double radius, double tolerance) {
+    TubeKernel<double>::Params params;
+    params.tolerance = tolerance;
+    return TubeKernel<double>(radius, params);
+}
+
+/// A sphere that settles with unit velocity.
 struct Settling {
     Vector<double> traction;  // without its uniform pressure
-    double velocity;
-    double seconds;
+    double drag;              // over that of a uniform unit traction
 };
 
-Vector<double> settle(const LinearSurface<double>& surface, const Matrix<double>& mobility, double& velocity) {
+Settling settle(const LinearSurface<double>& surface, const Matrix<double>& mobility) {
     const Index n = surface.size();
     Vector<double> load = Vector<double>::Zero(2 * n);
     load.tail(n).setOnes();
@@ -41,35 +53,23 @@ Vector<double> settle(const LinearSurface<double>& surface, const Matrix<double>
     DenseLU<double> solver;
     const auto solution = RigidBody<double>().solve(
         MobilityProblem<double, LinearSurface<double>>{surface, mobility, none, load, tension, 0.0}, solver);
-    velocity = solution.velocity[n];
-    return solution.force;
+    return {solution.force / solution.velocity[n], 1 / solution.velocity[n]};
 }
 
-template <class Confine>
-Settling settling(const Meridian<double>& sphere, const Confine& confined_mobility) {
-    const LinearElements<double> elements;
-    const LinearSurface<double> surface = elements.surface(sphere);
-    Settling result;
-    result.seconds = 1e9;
-    for (int repetition = 0; repetition < 3; ++repetition) {
-        const auto begin = std::chrono::steady_clock::now();
-        const Matrix<double> mobility = confined_mobility(elements);
-        result.traction = settle(surface, mobility, result.velocity);
-        result.seconds =
-            std::min(result.seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    }
-    return result;
+Settling by_tube(const LinearElements<double>& discretization, const Meridian<double>& sphere,
+                 const TubeKernel<double>& kernel) {
+    return settle(discretization.surface(sphere), discretization.single_layer(sphere, kernel));
 }
 
-/// The mesh and its factors are made in the first of the repetitions, as in a simulation's first step.
-Settling with_wall(const Meridian<double>& sphere, Tube& tube) {
-    return settling(sphere, [&](const LinearElements<double>& elements) {
-        const FreeSpaceKernel<double> kernel;
-        Matrix<double> mobility = elements.single_layer(sphere, kernel);
-        Vector<double> background = Vector<double>::Zero(mobility.rows());
-        tube.confine(elements, kernel, sphere, mobility, background);
-        return mobility;
-    });
+Settling by_wall(const LinearElements<double>& discretization, const Meridian<double>& sphere, Matrix<double> unbounded,
+                 Tube& tube) {
+    Vector<double> background = Vector<double>::Zero(unbounded.rows());
+    tube.confine(discretization, FreeSpaceKernel<double>(), sphere, unbounded, background);
+    return settle(discretization.surface(sphere), unbounded);
+}
+/// The mesh and its factors are made in the first call, as in a simulation's first step.
+Settling by_wall(const LinearElements<double>& discretization, const Meridian<double>& sphere, Tube& tube) {
+    return by_wall(discretization, sphere, discretization.single_layer(sphere, FreeSpaceKernel<double>()), tube);
 }
 
 double largest_deviation(const Settling& result, const Settling& reference) {
@@ -77,100 +77,118 @@ double largest_deviation(const Settling& result, const Settling& reference) {
            reference.traction.lpNorm<Eigen::Infinity>();
 }
 
-Settling reference(const Case& c, const Meridian<double>& sphere) {
-    WallMeshParams<double> params;
-    params.tolerance = 1e-10;
-    Tube tube(StraightTube<double>(c.radius), params);
-    return with_wall(sphere, tube);
-}
-
-/// Fewest nodes on wall and ends with which the tractions are right to `accuracy`.
-void nodes_needed(const std::string& directory, double accuracy) {
-    examples::Report report(
-        directory, "wall_nodes.csv",
-        "tube_radius,sphere_elements,accuracy,mesh,nodes_per_panel,wall_panels,nodes,error,paper_wall_elements");
-    for (const Case& c : kCases) {
-        const Meridian<double> body = sphere<double>(c.elements);
-        const Settling exact = reference(c, body);
-        const auto search = [&](const char* mesh, WallGrading grading, Index order, double length) {
-            for (double panels = 2; panels < 1000; panels = std::max(panels + 1, std::floor(panels * 1.15))) {
-                WallMeshParams<double> params;
-                params.tolerance = accuracy;
-                params.grading = grading;
-                params.nodes_per_panel = order;
-                params.panels = static_cast<Index>(panels);
-                if (length > 0) {
-                    params.length = length - 1;  // the paper's is from the centre
-                }
-                Tube tube(StraightTube<double>(c.radius), params);
-                const double error = largest_deviation(with_wall(body, tube), exact);
-                if (error < accuracy) {
-                    report.row(c.radius, c.elements, accuracy, mesh, order, tube.mesh()->wall_panels(),
-                               tube.mesh()->curve().size(), error, c.paper_wall_elements);
-                    return;
-                }
-            }
-        };
-        search("automatic", WallGrading::automatic, 8, 0);
-        search("automatic", WallGrading::automatic, 4, 0);
-        search("automatic", WallGrading::automatic, 2, 0);
-        search("quadratic", WallGrading::quadratic, 8, c.paper_length);
-        search("quadratic", WallGrading::quadratic, 2, c.paper_length);
-        search("uniform", WallGrading::uniform, 8, c.paper_length);
-        search("uniform", WallGrading::uniform, 2, c.paper_length);
+/// Errors and times of meshes of the wall, compared with the tube kernel of the largest tolerance (a power of ten) that
+/// gives the tractions to the accuracy asked for.
+class Comparison {
+  public:
+    Comparison(const Case& c, double accuracy)
+        : radius_(c.radius),
+          body_(sphere<double>(c.elements)),
+          unbounded_(fine_.single_layer(body_, FreeSpaceKernel<double>())),
+          exact_(by_tube(fine_, body_, tube_kernel(c.radius, 1e-10))),
+          kernel_tolerance_(accuracy),
+          coarse_(elements(accuracy / 1000)) {
+        while (kernel_error() > accuracy) {
+            kernel_tolerance_ /= 10;
+        }
     }
-}
 
-/// What the mesh chosen from a tolerance achieves, and the time of one evaluation compared with the tube kernel's.
+    const Meridian<double>& body() const { return body_; }
+    double wall_error(const WallMeshParams<double>& params) const {
+        Tube tube(StraightTube<double>(radius_), params);
+        return largest_deviation(by_wall(fine_, body_, unbounded_, tube), exact_);
+    }
+    double kernel_error() const {
+        return largest_deviation(by_tube(fine_, body_, tube_kernel(radius_, kernel_tolerance_)), exact_);
+    }
+
+    void report(examples::Report& table, const Case& c, const std::string& mesh, double accuracy,
+                const WallMeshParams<double>& params) const {
+        Tube tube(StraightTube<double>(radius_), params);
+        const Settling wall = by_wall(fine_, body_, unbounded_, tube);
+        const TubeKernel<double> kernel = tube_kernel(radius_, kernel_tolerance_);
+        constexpr int repetitions = 31;
+        const auto [tube_seconds, wall_seconds] = examples::median_seconds(
+            repetitions, [&] { by_tube(coarse_, body_, kernel); }, [&] { by_wall(coarse_, body_, tube); });
+        table.row(c.radius, c.elements, accuracy, mesh, examples::name_of(params.grading), tube.mesh()->upper() - 1,
+                  tube.mesh()->curve().nodes_per_panel(), tube.mesh()->wall_panels(), tube.mesh()->curve().size(),
+                  largest_deviation(wall, exact_), wall.drag / exact_.drag - 1, kernel_tolerance_, kernel_error(),
+                  1e3 * tube_seconds, 1e3 * wall_seconds, tube_seconds / wall_seconds, c.paper_nodes);
+    }
+
+  private:
+    double radius_;
+    LinearElements<double> fine_ = elements(1e-10);
+    Meridian<double> body_;
+    Matrix<double> unbounded_;
+    Settling exact_;
+    double kernel_tolerance_;
+    LinearElements<double> coarse_;
+};
+
+const std::vector<Index> kOrders{4, 3, 5, 6, 8, 2};
+
+const char* const kColumns =
+    "tube_radius,sphere_elements,accuracy,mesh,grading,length_beyond_sphere,nodes_per_panel,wall_panels,nodes,"
+    "traction_error,drag_error,kernel_tolerance,kernel_traction_error,tube_ms,wall_ms,tube_over_wall,paper_wall_"
+    "elements";
+
+/// The meshes chosen from a tolerance.
 void chosen(const std::string& directory) {
-    examples::Report report(directory, "wall_tolerance.csv",
-                            "tube_radius,tolerance,nodes,traction_error,velocity_error,wall_seconds,tube_seconds,"
-                            "tube_over_wall,velocity_wall_over_tube_minus_1");
+    examples::Report table(directory, "wall_tolerance.csv", kColumns);
     for (const Case& c : kCases) {
-        const Meridian<double> body = sphere<double>(c.elements);
-        const Settling exact = reference(c, body);
         for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
             WallMeshParams<double> params;
             params.tolerance = tolerance;
-            Tube tube(StraightTube<double>(c.radius), params);
-            const Settling wall = with_wall(body, tube);
-            TubeKernel<double>::Params kernel_params;
-            kernel_params.tolerance = tolerance;
-            const TubeKernel<double> kernel(c.radius, kernel_params);
-            const Settling tube_kernel = settling(
-                body, [&](const LinearElements<double>& elements) { return elements.single_layer(body, kernel); });
-            report.row(c.radius, tolerance, tube.mesh()->curve().size(), largest_deviation(wall, exact),
-                       std::abs(wall.velocity / exact.velocity - 1), wall.seconds, tube_kernel.seconds,
-                       tube_kernel.seconds / wall.seconds, wall.velocity / tube_kernel.velocity - 1);
+            Comparison(c, tolerance).report(table, c, "default", tolerance, params);
         }
     }
 }
 
-/// Mean over the section of |u| / U for a sphere settling with velocity U in fluid at rest (the paper's Fig. 12).
+/// Fewest nodes on wall and ends with which the tractions are right to `accuracy`: over all meshes, and with the
+/// paper's length and low order.
+void nodes_needed(const std::string& directory, double accuracy) {
+    examples::Report table(directory, "wall_nodes.csv", kColumns);
+    for (const Case& c : kCases) {
+        const Comparison comparison(c, accuracy);
+        const auto search = [&](const char* name, const std::vector<WallGrading>& gradings,
+                                const std::vector<Index>& orders, const std::vector<double>& lengths) {
+            const auto best =
+                examples::cheapest_wall(StraightTube<double>(c.radius), comparison.body(), accuracy, gradings, orders,
+                                        lengths, [&](const auto& params) { return comparison.wall_error(params); });
+            if (best.error < accuracy) {
+                comparison.report(table, c, name, accuracy, best.params);
+            }
+        };
+        std::vector<double> lengths;
+        for (const double length : {1.2, 0.8, 0.6, 0.4, 0.25}) {
+            lengths.push_back(length * c.radius);
+        }
+        const double paper_length = c.paper_length - 1;  // the paper's is from the centre
+        search("fewest", {WallGrading::automatic, WallGrading::quadratic, WallGrading::uniform}, kOrders, lengths);
+        search("fewest", {WallGrading::quadratic}, kOrders, lengths);
+        search("fewest", {WallGrading::uniform}, kOrders, lengths);
+        search("order 2 and the paper's length", {WallGrading::quadratic}, {2}, {paper_length});
+        search("order 2 and the paper's length", {WallGrading::uniform}, {2}, {paper_length});
+    }
+}
+
+/// For a sphere that settles in fluid at rest.
 void decay(const std::string& directory) {
-    examples::Report report(directory, "wall_decay.csv", "tube_radius,z,mean_perturbation,rate_times_radius");
+    examples::DecayReport report(directory);
     for (const Case& c : kCases) {
         const Meridian<double> body = sphere<double>(c.elements);
-        const Settling exact = reference(c, body);
+        const LinearElements<double> discretization = elements(1e-13);
+        const FreeSpaceKernel<double> kernel;
+        constexpr double farthest = 4.5;
         WallMeshParams<double> params;
         params.tolerance = 1e-12;
+        params.length = (farthest + 1.5) * c.radius;
         Tube tube(StraightTube<double>(c.radius), params);
-        const LinearElements<double> elements;
-        const FreeSpaceKernel<double> kernel;
-        const auto field = tube.field(elements, kernel, body, exact.traction);
-        const GaussLegendreRule<double> rule = gauss_legendre<double>(20);
-        double before = 0;
-        const double step = 0.5 * c.radius;
-        for (double z = 1.25 * c.radius; z < 4.5 * c.radius; z += step) {
-            const Index n = rule.nodes.size();
-            const Vector<double> u =
-                field.velocity({Vector<double>(c.radius * rule.nodes), Vector<double>::Constant(n, z)});
-            const Vector<double> magnitude = (u.head(n).array().square() + u.tail(n).array().square()).sqrt();
-            const double mean = rule.weights.dot(magnitude) / exact.velocity;
-            const double rate = before > 0 ? std::log(before / mean) / step * c.radius : 0.0;
-            report.row(c.radius, z, mean, rate);
-            before = mean;
-        }
+        const Settling settling = by_wall(discretization, body, tube);
+        const auto field = tube.field(discretization, kernel, body, settling.traction);
+        report.add("sphere", c.radius, 1.0, 0.5 * std::ceil(2.2 / c.radius), farthest, 1,
+                   [&](const Meridian<double>& points) { return field.velocity(points); });
     }
 }
 
@@ -183,6 +201,7 @@ int main(int argc, char** argv) {
     app.add_option("--out", directory, "directory that receives wall_decay.csv, wall_tolerance.csv, wall_nodes.csv");
     examples::add_number(app, "--accuracy", accuracy, "of the tractions, for the number of nodes needed");
     return examples::run_program("wall_study", app, argc, argv, [&] {
+        detail::require(accuracy >= 1e-6 && accuracy <= 0.1, "accuracy", accuracy, "in [1e-6, 0.1]");
         decay(directory);
         chosen(directory);
         nodes_needed(directory, accuracy);

@@ -427,6 +427,34 @@ TEST_CASE("Geometric limits of a vesicle's passage") {
                   "no narrower tube holds");
 }
 
+TEST_CASE("Area needed halfway through a channel") {
+    const double volume = 4 * kPi / 3;
+    const auto area_to_pass_tube = [&](double radius) {
+        // Cylinder with hemispherical ends.
+        return 2 * volume / radius + 4 * kPi * radius * radius / 3;
+    };
+    // In a long throat the vesicle is that cylinder, in a short one nearly the two caps in a hole.
+    CHECK(*halfway_area(Pore<double>(0.7, 1.5, 20.0, 1.0), volume) == Approx(area_to_pass_tube(0.7)).epsilon(1e-6));
+    const double area = 4 * kPi + 1;
+    const double hole = critical_orifice_radius(area, volume);
+    CHECK(*halfway_area(Constriction<double>(hole, 4.0, 0.1), volume) == Approx(area).epsilon(5e-3));
+    double before = area;
+    for (const double half_length : {0.5, 1.0, 2.0}) {
+        const double needed = *halfway_area(Constriction<double>(hole, 1.5, half_length), volume);
+        CHECK(needed > before);
+        CHECK(needed < area_to_pass_tube(hole));
+        before = needed;
+    }
+    // Never more than two spheres.
+    CHECK(*halfway_area(Pore<double>(0.45, 1.5, 20.0, 1.0), volume) == Approx(std::cbrt(2.0) * 4 * kPi));
+    CHECK_FALSE(halfway_area(StraightTube<double>(0.7), volume).has_value());
+
+    // A throat wider than the critical hole, and shorter than the vesicle.
+    check_refused([&] { require_passage(Constriction<double>(0.5, 1.5, 2.0), 4 * kPi + 2, volume); },
+                  "halfway through, a vesicle of volume 4.18879 needs an area of 14.7");
+    CHECK_NOTHROW(require_passage(Constriction<double>(0.55, 1.5, 2.0), 4 * kPi + 2, volume));
+}
+
 TEST_CASE("Bad walls are refused with the reason") {
     check_refused([] { StraightTube<double>(0.0); }, "tube radius = 0");
     check_refused([] { Constriction<double>(-0.5, 1.0, 1.0); }, "throat radius = -0.5");

@@ -113,6 +113,8 @@ int pass(const PassageOptions& options) {
     double deviation = 0;
     std::string failure;
     bool passed = false;
+    bool stopped = false;
+    constexpr double stuck = 1e-4;  // velocity over that of the flow in the throat
     const auto begin = std::chrono::steady_clock::now();
     {
         const InterruptGuard guard;
@@ -139,6 +141,11 @@ int pass(const PassageOptions& options) {
                     entered_or_left.push_back(record.time);
                 }
                 passed = record.position >= -start;
+                if (std::abs(record.velocity) < stuck * simulator.scene().velocity_scale()) {
+                    throw axistokes::SimulationFailure(
+                        "the vesicle is stuck at z = " + std::to_string(record.position) +
+                        ": this flow rate does not press it through the throat");
+                }
                 std::ostringstream text;
                 text << "step " << record.step << "  z " << record.position << "  film " << record.film_thickness_min;
                 bar.show(way, text.str());
@@ -146,6 +153,11 @@ int pass(const PassageOptions& options) {
         } catch (const axistokes::SimulationFailure& error) {
             failure = error.what();
         }
+        stopped = guard.interrupted();
+    }
+    if (!passed && !stopped && failure.empty()) {
+        failure = "not through after " + std::to_string(options.most_steps) +
+                  " steps: the centroid is at z = " + std::to_string(simulator.configuration().position);
     }
     frames.add(simulator.history().empty() ? 0 : simulator.history().back().time,
                drawn_curve(discretization, simulator.shape()));
@@ -176,9 +188,9 @@ int pass(const PassageOptions& options) {
     options.method.describe(summary);
     if constexpr (spectral) {
         // Largest on the way, of the shape; the time steps' errors come on top.
-        summary["error_estimate"] = unresolved / 10;
+        summary["error_estimate"] = unresolved / axistokes::Accuracy<double>::unresolved_to_error;
         if (accuracy) {
-            summary["error_met"] = unresolved / 10 <= accuracy->eps;
+            summary["error_met"] = unresolved / axistokes::Accuracy<double>::unresolved_to_error <= accuracy->eps;
         }
     }
     summary["flow_rate_deviation"] = deviation;
@@ -208,7 +220,7 @@ int pass(const PassageOptions& options) {
     if (!failure.empty()) {
         throw axistokes::SimulationFailure(failure);
     }
-    return passed ? success : simulation_failure;
+    return passed ? success : interrupted;
 }
 
 }  // namespace examples

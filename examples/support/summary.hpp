@@ -105,7 +105,7 @@ inline void print(const nlohmann::ordered_json& summary, const std::string& dire
     for (const auto& [key, value] : summary.items()) {
         const bool shown = key != "stationary" && key != "steps" && key != "time" && key != "wall_seconds";
         if (shown && value.is_number()) {
-            std::cout << "  " << std::left << std::setw(18) << key << std::right << std::setw(16);
+            std::cout << "  " << std::left << std::setw(22) << key << std::right << std::setw(16);
             value.is_number_float() ? std::cout << value.get<double>() : std::cout << value;
             std::cout << '\n';
         }

@@ -24,7 +24,7 @@ class Drive {
     using Choice = std::variant<axistokes::Quiescent<double>, axistokes::Gravity<double>, axistokes::Poiseuille<double>,
                                 axistokes::UnboundedPoiseuille<double>>;
 
-    Drive(Choice choice) : choice_(choice) {}
+    explicit Drive(Choice choice) : choice_(choice) {}
 
     axistokes::Point<double> velocity(const axistokes::Point<double>& x) const {
         return std::visit([&](const auto& flow) { return flow.velocity(x); }, choice_);

@@ -30,6 +30,7 @@ class VesicleRun {
     using Solver = CompiledSolver<typename Simulator::SceneType>;
     using Failure = axistokes::SimulationFailure;
     static constexpr bool spectral = judges_itself<Discretization>;
+    static constexpr double unresolved_to_error = axistokes::Accuracy<double>::unresolved_to_error;
 
   public:
     VesicleRun(const VesicleCase& c, Kernel kernel, Wall wall)
@@ -186,7 +187,7 @@ class VesicleRun {
     }
     void judge(const Shape& shape) {
         if constexpr (spectral) {
-            report_error(discretization_.unresolved(shape) / 10);
+            report_error(discretization_.unresolved(shape) / unresolved_to_error);
         }
     }
 
@@ -232,9 +233,9 @@ class VesicleRun {
             const Index now = shape.elements();
             Index next = 0;
             if constexpr (spectral) {
-                error = discretization_.unresolved(shape) / 10;
+                error = discretization_.unresolved(shape) / unresolved_to_error;
                 report_error(error);
-                next = more_modes(now, 10 * error, accuracy_->unresolved, most());
+                next = more_modes(now, unresolved_to_error * error, accuracy_->unresolved, most());
             } else {
                 next = more_elements(now, error, accuracy_->eps, most());
             }
@@ -272,7 +273,19 @@ class VesicleRun {
         details_["newton_evaluations"] = evaluations;
     }
 
-    void examine(Solver& solver, const typename Solver::State& state) {
+    /// Of a coarser state near this one if there are many modes: growth rates need no accuracy, and one evaluation or
+    /// two a mode.
+    void examine(Solver& solver, const typename Solver::State& given) {
+        constexpr Index enough = 64;
+        typename Solver::State state = given;
+        if (spectral && given.configuration.shape.elements() > enough) {
+            try {
+                state = solver.solve(discretization_.redistributed(given.configuration.shape, enough),
+                                     simulator_->initial_area(), simulator_->initial_volume());
+            } catch (const Failure&) {
+                return;  // without them
+            }
+        }
         const double rate = solver.leading_growth_rate(state);
         details_["stable"] = rate < 0;
         details_["leading_growth_rate"] = rate;

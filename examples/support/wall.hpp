@@ -3,7 +3,7 @@
 #pragma once
 
 #include "program.hpp"
-#include <axistokes/wall/channel_mesh.hpp>
+#include <axistokes/wall/wall_params.hpp>
 
 #include <optional>
 #include <string>

@@ -14,6 +14,9 @@ namespace axistokes {
 /// tolerance falls below what the type can resolve.
 template <class S = double>
 struct Accuracy {
+    /// That share over the error of velocity and length it goes with, at most (docs/accuracy.md).
+    static constexpr double unresolved_to_error = 2;
+
     S eps;
     /// Of the discretisation's integrals, of the tube's Green function, of a meshed wall.
     S quadrature;
@@ -25,7 +28,7 @@ struct Accuracy {
     S step_to_stationary;
     /// Residual of a stationary state. Slow modes make its error many times larger than the residual.
     S residual;
-    /// Largest SpectralMeridian::unresolved, the share of a shape's last modes. The velocity's error is less.
+    /// Largest SpectralMeridian::unresolved, the share of a shape's last modes in its slope.
     S unresolved;
 
     /// Throws InvalidArgument unless eps is in [1e-12, 0.1].
@@ -38,7 +41,7 @@ struct Accuracy {
         step = std::max<S>(eps, least);
         step_to_stationary = S(1e-3);
         residual = std::max<S>(eps / 100, 1000 * least);
-        unresolved = std::max<S>(10 * eps, 1000 * least);
+        unresolved = std::max<S>(S(unresolved_to_error) * eps, 1000 * least);
     }
 
     /// The presets: fast (1e-3), balanced (1e-6), reference (1e-10). Throws InvalidArgument for another name.

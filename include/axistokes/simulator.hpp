@@ -151,9 +151,7 @@ class Simulator {
     bool stationary() const { return !history_.empty() && history_.back().residual < params_.tolerance; }
 
     /// Whether the longest time has passed, up to rounding. Automatic steps end there exactly.
-    bool finished() const {
-        return time_ >= params_.longest_time * (1 - 16 * std::numeric_limits<Scalar>::epsilon());
-    }
+    bool finished() const { return time_ >= params_.longest_time * (1 - 16 * std::numeric_limits<Scalar>::epsilon()); }
 
     /// The shape in the laboratory frame.
     Meridian<Scalar> shape() const {

@@ -98,12 +98,19 @@ FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configur
     const Vector<S>& total = instant.solution.force;
     const Vector<S> force = total - (surface.flux(total) / surface.flux(normals)) * normals;
 
-    // A copy: evaluation may need a new mesh.
-    auto wall = scene.wall();
+    // The scene's mesh need not reach as far as the grid.
+    constexpr bool walled = std::remove_cvref_t<decltype(scene.wall())>::present;
+    auto wall = [&] {
+        if constexpr (walled) {
+            return scene.wall().reaching(grid.half_length);
+        } else {
+            return scene.wall();
+        }
+    }();
     Meridian<S> particle = configuration.shape;
     particle.z.array() += configuration.position;
     const auto disturbance = [&] {
-        if constexpr (std::remove_cvref_t<decltype(wall)>::present) {
+        if constexpr (walled) {
             return [channel = wall.field(scene.discretization(), kernel, particle, force),
                     z = configuration.position](Meridian<S> row) {
                 row.z.array() += z;

@@ -8,59 +8,14 @@
 #include "../geometry/meridian.hpp"
 #include "panel_curve.hpp"
 #include "profile.hpp"
+#include "wall_params.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace axistokes {
-
-/// How the wall's panels are distributed along z: as the particle's distance and the wall's radius ask for, equal, or
-/// as the square of the distance from the particle (Trozzo et al. 2015, section 3.2.2).
-enum class WallGrading { automatic, uniform, quadratic };
-
-template <class S>
-struct WallMeshParams {
-    /// Of the channel's flow, in R0^2 kappa/(eta R0^2). Leave it at 0 if the flow is the scene's background; that one
-    /// must vanish on the wall then.
-    S flow_rate = S(0);
-    /// Relative error wanted of the particle's velocity and tractions, in (0, 0.1].
-    S tolerance = S(1e-5);
-    /// Length of the wall beyond the particle and the profile's range at either end; default: from the tolerance.
-    std::optional<S> length;
-    /// Panels on the wall, without the ends; default: from the tolerance and the particle's distance.
-    std::optional<Index> panels;
-    std::optional<Index> nodes_per_panel;
-    WallGrading grading = WallGrading::automatic;
-};
-
-namespace detail {
-
-/// The slowest axisymmetric perturbation of Poiseuille flow decays like exp(-decay |z|/Rc): real part of the first root
-/// with positive real part of J0(k)^2 + J1(k)^2 = 2 J0(k) J1(k)/k.
-inline constexpr double tube_decay = 4.46630;
-
-template <class S>
-void validate(const WallMeshParams<S>& p) {
-    using std::isfinite;
-    require(isfinite(p.flow_rate), "flow rate", p.flow_rate, "finite");
-    require(p.tolerance > S(0) && p.tolerance <= S(0.1), "wall tolerance", p.tolerance, "in (0, 0.1]");
-    if (p.length) {
-        require(*p.length > S(0) && isfinite(*p.length), "wall length", *p.length, "> 0 and finite");
-    }
-    if (p.panels) {
-        require(*p.panels >= 2, "number of wall panels", *p.panels, "at least 2");
-    }
-    if (p.nodes_per_panel) {
-        require(*p.nodes_per_panel >= 2, "nodes per panel", *p.nodes_per_panel, "at least 2");
-    }
-    require(p.grading == WallGrading::automatic || p.panels.has_value(), "number of wall panels", 0,
-            "given for a uniform or a quadratic grading");
-}
-
-}  // namespace detail
 
 template <ChannelProfile Profile>
 class ChannelMesh {
@@ -135,6 +90,13 @@ class ChannelMesh {
         return profile.radius(Profile::uniform ? z : std::clamp(z, Scalar(profile.begin()), Scalar(profile.end())));
     }
 
+    /// Wall needed beyond a particle in a tube of the given radius: a perturbation that an end cuts off comes back to
+    /// the particle after as long a way.
+    static Scalar default_length(const Scalar& radius, const Scalar& tolerance) {
+        using std::log;
+        return radius * log(Scalar(1) / tolerance) / Scalar(2 * detail::tube_decay);
+    }
+
   private:
     /// Panels of one radius resolve the tube's eigenfunctions.
     static constexpr double length_over_radius = 1.0;
@@ -158,11 +120,8 @@ class ChannelMesh {
         return Profile::uniform || (z > profile.begin() && z < profile.end()) ? Scalar(profile.slope(z)) : Scalar(0);
     }
 
-    /// A perturbation that an end cuts off comes back to the particle after as long a way.
     static Scalar margin(const Profile& profile, const Params& params, const Scalar& z) {
-        using std::log;
-        return params.length.value_or(channel_radius(profile, z) * log(Scalar(1) / params.tolerance) /
-                                      Scalar(2 * detail::tube_decay));
+        return params.length.value_or(default_length(channel_radius(profile, z), params.tolerance));
     }
 
     /// Smallest radial distance of the particle's nodes from the wall.

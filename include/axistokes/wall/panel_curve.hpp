@@ -12,6 +12,7 @@
 #include "../geometry/meridian_spline.hpp"
 #include "../quadrature/element_rules.hpp"
 #include "../quadrature/kernel_row.hpp"
+#include "../quadrature/lagrange_basis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ class PanelCurve {
     PanelCurve(Index nodes_per_panel, const S& tolerance)
         : p_(checked(nodes_per_panel, tolerance)),
           rules_(tolerance, 2 * nodes_per_panel),
-          barycentric_(barycentric_weights(rules_[nodes_per_panel].nodes)) {}
+          basis_(rules_[nodes_per_panel].nodes) {}
 
     /// Appends the panel x(t), 0 <= t <= 1, given as a function t -> CurvePoint. The curve runs so that the outward
     /// normal is to the right of it, as on a Meridian.
@@ -56,13 +57,13 @@ class PanelCurve {
     /// Point of a panel at t in [0, 1].
     Point<S> position(Index panel, const S& t) const {
         Vector<S> basis;
-        lagrange(t, basis);
+        basis_.evaluate(t, basis);
         return {basis.dot(nodes_.r.segment(panel * p_, p_)), basis.dot(nodes_.z.segment(panel * p_, p_))};
     }
     /// |dx/dt| there.
     S speed(Index panel, const S& t) const {
         Vector<S> basis;
-        lagrange(t, basis);
+        basis_.evaluate(t, basis);
         return basis.dot(speed_.segment(panel * p_, p_));
     }
 
@@ -105,33 +106,6 @@ class PanelCurve {
         return nodes_per_panel;
     }
 
-    static Vector<S> barycentric_weights(const Vector<S>& nodes) {
-        Vector<S> w = Vector<S>::Ones(nodes.size());
-        for (Index i = 0; i < nodes.size(); ++i) {
-            for (Index j = 0; j < nodes.size(); ++j) {
-                if (i != j) {
-                    w[i] /= 4 * (nodes[i] - nodes[j]);  // 4: the capacity of [0, 1], against overflow
-                }
-            }
-        }
-        return w;
-    }
-
-    /// Values at t of the Lagrange polynomials of the nodes.
-    void lagrange(const S& t, Vector<S>& values) const {
-        const Vector<S>& nodes = rules_[p_].nodes;
-        values.resize(p_);
-        for (Index k = 0; k < p_; ++k) {
-            if (t == nodes[k]) {
-                values.setZero();
-                values[k] = 1;
-                return;
-            }
-            values[k] = barycentric_[k] / (t - nodes[k]);
-        }
-        values /= values.sum();
-    }
-
     /// Quadrature points on one panel for one target: positions, the share of each of the panel's p densities, and
     /// the kernel's entries.
     struct Points {
@@ -154,7 +128,7 @@ class PanelCurve {
 
     /// A point at t whose weight for Int ... dt is w.
     void add_point(Index panel, const S& t, const S& w, Vector<S>& basis, Points& points) const {
-        lagrange(t, basis);
+        basis_.evaluate(t, basis);
         points.r.push_back(basis.dot(nodes_.r.segment(panel * p_, p_)));
         points.z.push_back(basis.dot(nodes_.z.segment(panel * p_, p_)));
         const S dl = w * basis.dot(speed_.segment(panel * p_, p_));
@@ -308,7 +282,7 @@ class PanelCurve {
 
     Index p_;
     ElementRules<S> rules_;
-    Vector<S> barycentric_;
+    LagrangeBasis<S> basis_;
     Meridian<S> nodes_;
     Vector<S> speed_;  // |dx/dt|
     Vector<S> normal_r_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace axistokes {
@@ -76,9 +77,79 @@ S critical_orifice_radius(const S& area, const S& volume) {
     return detail::increasing_root<S>(S(0), sphere, [&](const S& hole) { return S(area - least_area(hole)); });
 }
 
+namespace detail {
+
+/// Least area of a surface that starts at the channel's section z, goes in the given direction (1 or -1), stays within
+/// the wall and holds the given volume with that section. It follows the wall up to some z1 and closes with the sphere
+/// that touches the wall there. Nothing if that is not the answer: the wall must pull nowhere, that is, on the part
+/// followed, widen with growing slope and have no larger mean curvature than the sphere.
+template <ChannelProfile Profile>
+std::optional<typename Profile::Scalar> least_area_beyond(const Profile& profile, const typename Profile::Scalar& z,
+                                                          int direction, const typename Profile::Scalar& volume) {
+    using S = typename Profile::Scalar;
+    using std::sqrt;
+    constexpr int samples = 4000;
+    const S pi = pi_value<S>();
+    const S step = ((direction > 0 ? profile.end() : profile.begin()) - z) / S(samples);
+    const S throat = profile.radius(z);
+    S wall_area = 0;
+    S wall_volume = 0;
+    S area_before = 0;
+    S volume_before = 0;
+    S slope_before = 0;
+    for (int i = 0; i <= samples; ++i) {
+        const S z1 = z + step * S(i);
+        const S radius = profile.radius(z1);
+        const S slope = S(direction) * profile.slope(z1);
+        if (i > 0) {
+            const S middle = profile.radius(z1 - step / 2);
+            const S rise = profile.slope(z1 - step / 2);
+            const S length = S(direction) * step;
+            wall_area += 2 * pi * middle * sqrt(S(1) + rise * rise) * length;
+            wall_volume += pi * middle * middle * length;
+        }
+        const S sphere = radius * sqrt(S(1) + slope * slope);
+        const S height = sphere + radius * slope;
+        const S area = wall_area + 2 * pi * sphere * height;
+        const S held = wall_volume + pi / 3 * height * height * (3 * sphere - height);
+        if (slope < slope_before - S(1e-9) || sphere > 2 * throat) {
+            return std::nullopt;
+        }
+        if (held >= volume) {
+            const S share = i == 0 ? S(1) : (volume - volume_before) / (held - volume_before);
+            return area_before + share * (area - area_before);
+        }
+        area_before = area;
+        volume_before = held;
+        slope_before = slope;
+    }
+    return std::nullopt;
+}
+
+}  // namespace detail
+
+/// Least area that a vesicle of the given volume has when half of it has passed the narrowest section of a channel, as
+/// far as the wall beside this section tells; that of two spheres if these have less. Nothing if not known.
+template <ChannelProfile Profile>
+std::optional<typename Profile::Scalar> halfway_area(const Profile& profile, const typename Profile::Scalar& volume) {
+    using S = typename Profile::Scalar;
+    using std::cbrt;
+    if (Profile::uniform) {
+        return std::nullopt;
+    }
+    const S narrowest = narrowest_section(profile);
+    const auto above = detail::least_area_beyond(profile, narrowest, 1, S(volume / 2));
+    const auto below = detail::least_area_beyond(profile, narrowest, -1, S(volume / 2));
+    if (!above || !below) {
+        return std::nullopt;
+    }
+    const S sphere = cbrt(3 * volume / (8 * detail::pi_value<S>()));
+    return std::min<S>(*above + *below, 8 * detail::pi_value<S>() * sphere * sphere);
+}
+
 /// Throws InvalidArgument if a vesicle of the given area and volume cannot pass the channel, whatever the pressure: its
 /// throat is narrower than the critical orifice, or narrower than the critical tube over the length of the vesicle in
-/// it. (Between the two limits the answer depends on the profile.)
+/// it, or the vesicle cannot get halfway through. What passes may still need more pressure than the flow has.
 template <ChannelProfile Profile>
 void require_passage(const Profile& profile, const typename Profile::Scalar& area,
                      const typename Profile::Scalar& volume) {
@@ -105,6 +176,11 @@ void require_passage(const Profile& profile, const typename Profile::Scalar& are
             refuse(tube, "over the length of the throat, no narrower tube holds");
         }
     }
+    const S halfway = halfway_area(profile, volume).value_or(area);
+    std::ostringstream accepted;
+    accepted << "wider: halfway through, a vesicle of volume " << volume << " needs an area of " << halfway
+             << ", and has only " << area;
+    detail::require(halfway <= area * (S(1) + S(1e-6)), "throat radius", throat, accepted.str().c_str());
 }
 
 }  // namespace axistokes

@@ -34,20 +34,35 @@ void require_positive(const char* argument, const S& value) {
 
 }  // namespace detail
 
-/// Smallest of many radii sampled along the profile. Throws InvalidArgument where one is not positive and finite.
+/// Where the profile is narrowest, of many samples; the middle one of equal ones. Throws InvalidArgument where the
+/// radius is not positive and finite.
 template <ChannelProfile Profile>
-typename Profile::Scalar narrowest_radius(const Profile& profile) {
+typename Profile::Scalar narrowest_section(const Profile& profile) {
     using S = typename Profile::Scalar;
     constexpr int samples = 2000;
     S narrowest = std::numeric_limits<S>::infinity();
+    S first = 0;
+    S last = 0;
     for (int i = 0; i <= samples; ++i) {
         const S x = S(i) / S(samples);
         const S z = profile.begin() * (S(1) - x) + profile.end() * x;
         const S radius = profile.radius(z);
         detail::require_positive(("profile radius at z = " + std::to_string(static_cast<double>(z))).c_str(), radius);
-        narrowest = std::min(narrowest, radius);
+        if (radius < narrowest) {
+            narrowest = radius;
+            first = z;
+        }
+        if (radius == narrowest) {
+            last = z;
+        }
     }
-    return narrowest;
+    return (first + last) / 2;
+}
+
+/// The radius there.
+template <ChannelProfile Profile>
+typename Profile::Scalar narrowest_radius(const Profile& profile) {
+    return profile.radius(narrowest_section(profile));
 }
 
 /// r(z) = radius.

@@ -50,6 +50,17 @@ class WallMesh {
         return abs(peak_velocity(narrowest_));
     }
 
+    /// The same channel with a mesh for evaluating the flow up to the distance `reach` beyond a particle: the default
+    /// one, made longer.
+    WallMesh reaching(const Scalar& reach) const {
+        const Scalar widest = std::max(radius(profile_.begin()), radius(profile_.end()));
+        Params params;
+        params.flow_rate = params_.flow_rate;
+        params.tolerance = params_.tolerance;
+        params.length = reach + Mesh::default_length(widest, params.tolerance);
+        return WallMesh(profile_, params);
+    }
+
     /// The current mesh, if there is one yet.
     const std::optional<Mesh>& mesh() const { return mesh_; }
     /// How many meshes there have been: one, until the particle moves away from where the mesh is fine.

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+// A stationary vesicle in a tube by either method (docs/wall_mesh.md): agreement, wall nodes needed, time per step, and
+// how far it disturbs the flow.
+#include "support/interleaved.hpp"
+#include "support/program.hpp"
+#include "support/progress.hpp"
+#include "support/report.hpp"
+#include "support/tube.hpp"
+#include "support/wall_decay.hpp"
+#include "support/wall_nodes.hpp"
+#include <axistokes/axistokes.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace axistokes;
+using Tube = WallMesh<StraightTube<double>>;
+using ByTube = Scene<TubeKernel<double>, LinearElements<double>, Vesicle<double>, Poiseuille<double>, DenseLU<double>>;
+using ByWall =
+    Scene<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, Poiseuille<double>, DenseLU<double>, Tube>;
+
+struct Options {
+    examples::VesicleOptions vesicle{1.59, "prolate"};
+    examples::TubeOptions tube;
+    double capillary_number = 100;
+    Index elements = 64;
+    double settled = 1e-4;
+    double accuracy = 1e-3;
+    std::string directory;
+
+    double radius() const { return tube.radius(); }
+    Poiseuille<double> flow() const { return {capillary_number, radius()}; }
+};
+
+LinearElements<double> fine_elements() {
+    LinearElements<double>::Params params;
+    params.tolerance = 1e-9;
+    return LinearElements<double>(params);
+}
+
+ByTube by_tube(const Options& options, const LinearElements<double>& elements, double tolerance) {
+    TubeKernel<double>::Params params;
+    params.tolerance = tolerance;
+    return {TubeKernel<double>(options.radius(), params), elements, {}, options.flow(), {}};
+}
+
+ByWall by_wall(const Options& options, const LinearElements<double>& elements, const WallMeshParams<double>& params) {
+    return {{}, elements, {}, options.flow(), {}, Tube(StraightTube<double>(options.radius()), params)};
+}
+
+WallMeshParams<double> wall_of(double tolerance) {
+    WallMeshParams<double> params;
+    params.tolerance = tolerance;
+    return params;
+}
+
+/// Time steps with the tube kernel until the residual is below `settled`, as a start for Newton's method.
+Meridian<double> settle(const Options& options) {
+    SimulationParams<double> params;
+    params.tolerance = options.settled;
+    Simulator<TubeKernel<double>, LinearElements<double>, Vesicle<double>, Poiseuille<double>, SemiImplicitEuler,
+              DenseLU<double>>
+        run(options.tube.shape(options.vesicle, options.elements), options.flow(), params,
+            TubeKernel<double>(options.radius()));
+    examples::ProgressBar bar;
+    examples::Approach approach(params.tolerance);
+    run.run([&](const auto& record) {
+        std::ostringstream text;
+        text << "step " << record.step << "  residual " << record.residual;
+        bar.show(approach.fraction(record.residual), text.str());
+    });
+    return run.configuration().shape;
+}
+
+template <class SceneType>
+auto stationary(const SceneType& scene, const Meridian<double>& start, const Options& options) {
+    return StationarySolver<SceneType>(scene).solve(start, 4 * detail::pi_value<double>() + options.vesicle.excess_area,
+                                                    4 * detail::pi_value<double>() / 3);
+}
+
+/// Largest distance of a node of one meridian from the other one's chords.
+double distance(const Meridian<double>& a, const Meridian<double>& b) {
+    double largest = 0;
+    for (Index i = 0; i < a.nodes(); ++i) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (Index e = 0; e < b.elements(); ++e) {
+            const double dr = b.r[e + 1] - b.r[e];
+            const double dz = b.z[e + 1] - b.z[e];
+            const double r = a.r[i] - b.r[e];
+            const double z = a.z[i] - b.z[e];
+            const double t = std::clamp((r * dr + z * dz) / (dr * dr + dz * dz), 0.0, 1.0);
+            nearest = std::min(nearest, std::hypot(r - t * dr, z - t * dz));
+        }
+        largest = std::max(largest, nearest);
+    }
+    return largest;
+}
+
+double largest_deviation(const Vector<double>& values, const Vector<double>& reference) {
+    return (values - reference).lpNorm<Eigen::Infinity>() / reference.lpNorm<Eigen::Infinity>();
+}
+
+/// The stationary shapes and velocities of both methods, each by Newton's method, for walls of several tolerances.
+template <class State>
+void agreement(const Options& options, const State& exact) {
+    examples::Report table(options.directory, "agreement.csv",
+                           "wall_tolerance,wall_panels,wall_nodes,velocity,velocity_error,pressure_drop_error,"
+                           "shape_distance,velocity_tube");
+    for (const double tolerance : {1e-3, 1e-5}) {
+        const WallMeshParams<double> params = wall_of(tolerance);
+        ByWall scene = by_wall(options, fine_elements(), params);
+        const auto state = stationary(scene, exact.configuration.shape, options);
+        scene.evaluate(state.configuration, 0);
+        const auto& mesh = *scene.wall().mesh();
+        table.row(tolerance, mesh.wall_panels(), mesh.curve().size(), state.instant.velocity,
+                  state.instant.velocity / exact.instant.velocity - 1,
+                  state.instant.pressure_drop / exact.instant.pressure_drop - 1,
+                  std::max(distance(state.configuration.shape, exact.configuration.shape),
+                           distance(exact.configuration.shape, state.configuration.shape)),
+                  exact.instant.velocity);
+    }
+}
+
+/// Errors of the force densities and velocities on one frozen shape, and the times of one step.
+template <class State>
+void cost(const Options& options, const State& state) {
+    examples::Report table(options.directory, "cost.csv",
+                           "accuracy,mesh,grading,length_beyond_vesicle,nodes_per_panel,wall_panels,wall_nodes,"
+                           "force_error,velocity_error,kernel_tolerance,kernel_force_error,tube_ms,wall_ms,"
+                           "tube_over_wall");
+    const auto& configuration = state.configuration;
+    const LinearElements<double> fine = fine_elements();
+    const auto exact = by_tube(options, fine, 1e-10).evaluate(configuration, 0);
+    const auto force_error = [&](const auto& instant) {
+        return largest_deviation(instant.solution.force, exact.solution.force);
+    };
+    double kernel_tolerance = options.accuracy;
+    double kernel_error = 0;
+    for (;; kernel_tolerance /= 10) {
+        kernel_error = force_error(by_tube(options, fine, kernel_tolerance).evaluate(configuration, 0));
+        if (kernel_error < options.accuracy) {
+            break;
+        }
+    }
+    const auto report = [&](const std::string& name, const WallMeshParams<double>& params) {
+        const auto instant = by_wall(options, fine, params).evaluate(configuration, 0);
+        LinearElements<double>::Params coarse_params;
+        coarse_params.tolerance = options.accuracy / 1000;
+        const LinearElements<double> coarse(coarse_params);
+        ByTube tube = by_tube(options, coarse, kernel_tolerance);
+        ByWall wall = by_wall(options, coarse, params);
+        wall.evaluate(configuration, 0);  // makes the mesh
+        constexpr double time_step = 1e-3;
+        constexpr int repetitions = 31;
+        const auto [tube_seconds, wall_seconds] = examples::median_seconds(
+            repetitions, [&] { tube.evaluate(configuration, time_step); },
+            [&] { wall.evaluate(configuration, time_step); });
+        const auto& mesh = *wall.wall().mesh();
+        table.row(options.accuracy, name, examples::name_of(params.grading),
+                  mesh.upper() - configuration.shape.z.maxCoeff(), mesh.curve().nodes_per_panel(), mesh.wall_panels(),
+                  mesh.curve().size(), force_error(instant), instant.velocity / exact.velocity - 1, kernel_tolerance,
+                  kernel_error, 1e3 * tube_seconds, 1e3 * wall_seconds, tube_seconds / wall_seconds);
+    };
+    report("default", wall_of(options.accuracy));
+    std::vector<double> lengths;
+    for (const double length : {0.8, 0.6, 0.4, 0.25}) {
+        lengths.push_back(length * options.radius());
+    }
+    // The unbounded part does not depend on the wall.
+    ByWall scene = by_wall(options, fine, wall_of(options.accuracy));
+    const auto frozen_without_wall = [&] {
+        auto frozen = scene.freeze(configuration);
+        frozen.mobility = fine.single_layer(configuration.shape, scene.kernel());
+        frozen.background = scene.background_velocity(configuration);
+        return frozen;
+    }();
+    const auto wall_error = [&](const WallMeshParams<double>& params) {
+        auto frozen = frozen_without_wall;
+        Tube tube(StraightTube<double>(options.radius()), params);
+        tube.confine(fine, scene.kernel(), configuration.shape, frozen.mobility, frozen.background);
+        return force_error(scene.evaluate(frozen, configuration, 0));
+    };
+    const auto search = [&](const std::vector<WallGrading>& gradings) {
+        const auto best = examples::cheapest_wall(StraightTube<double>(options.radius()), configuration.shape,
+                                                  options.accuracy, gradings, {4, 3, 5, 6, 8, 2}, lengths, wall_error);
+        if (best.error < options.accuracy) {
+            report("fewest", best.params);
+        }
+    };
+    search({WallGrading::automatic, WallGrading::uniform});
+    search({WallGrading::uniform});
+}
+
+/// Up- and downstream of a stationary vesicle.
+template <class State>
+void decay(const Options& options, const State& state) {
+    constexpr double farthest = 4.5;
+    WallMeshParams<double> params = wall_of(1e-12);
+    params.length = (farthest + 1.0) * options.radius();
+    LinearElements<double>::Params accurate;
+    accurate.tolerance = 1e-13;
+    const LinearElements<double> elements(accurate);
+    ByWall scene = by_wall(options, elements, params);
+    const auto instant = scene.evaluate(state.configuration, 0);
+    // The uniform pressure in the force moves nothing: without it, neither does its discretisation error.
+    const Vector<double> normals = instant.surface.normals();
+    const Vector<double>& total = instant.solution.force;
+    const Vector<double> force = total - instant.surface.flux(total) / instant.surface.flux(normals) * normals;
+    Tube tube = scene.wall();
+    const auto field = tube.field(elements, scene.kernel(), state.configuration.shape, force);
+    examples::DecayReport report(options.directory);
+    const auto velocity = [&](const Meridian<double>& points) { return field.velocity(points); };
+    const double step = examples::DecayReport::step;
+    const double reach = std::max(state.configuration.shape.z.maxCoeff(), -state.configuration.shape.z.minCoeff());
+    const double nearest = step * std::ceil(1.1 * reach / options.radius() / step);
+    report.add("vesicle", options.radius(), options.capillary_number, nearest, farthest, 1, velocity);
+    report.add("vesicle", options.radius(), options.capillary_number, nearest, farthest, -1, velocity);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"A stationary vesicle in Poiseuille flow in a tube, by the tube kernel and by a meshed wall"};
+    Options options;
+    options.vesicle.add_to(app);
+    options.tube.add_to(app, "1/0.9");
+    examples::add_number(app, "--capillary-number", options.capillary_number, "Ca = eta u_max R0^2 / kappa");
+    examples::add_number(app, "--elements", options.elements, "elements on the meridian");
+    examples::add_number(app, "--settled", options.settled, "residual at which Newton's method takes over");
+    examples::add_number(app, "--accuracy", options.accuracy, "of the force densities, for the wall nodes needed");
+    app.add_option("--out", options.directory, "directory that receives agreement.csv, cost.csv, wall_decay.csv");
+    return examples::run_program("wall_vesicles", app, argc, argv, [&] {
+        detail::require(options.accuracy >= 1e-6 && options.accuracy <= 0.1, "accuracy", options.accuracy,
+                        "in [1e-6, 0.1]");
+        options.tube.confinement = options.tube.confinement.value_or(1 / 0.9);
+        const Meridian<double> start = settle(options);
+        const auto state = stationary(by_tube(options, fine_elements(), 1e-9), start, options);
+        decay(options, state);
+        agreement(options, state);
+        cost(options, state);
+        return examples::success;
+    });
+}
