@@ -27,8 +27,8 @@ struct Ending {
     bool interrupted = false;
     double wall_seconds = 0;
 
-    /// Of the simulator's last step, its last good one if it failed. Velocities are those of the last step, or of the
-    /// initial shape if there was none.
+    /// Of the simulator's last step, its last good one if it failed. Velocities are those of the shape it ended with: a
+    /// step's own are those it started from.
     void take(Simulator& simulator) {
         configuration = simulator.configuration();
         try {
@@ -42,7 +42,8 @@ struct Ending {
             velocity = last.velocity;
             residual = last.residual;
             pressure_drop = last.pressure_drop;
-        } else if (instant) {
+        }
+        if (instant) {
             velocity = instant->velocity;
             pressure_drop = instant->pressure_drop;
         }
