@@ -46,6 +46,8 @@ struct RunOptions {
 
     axistokes::SimulationParams<double> params() const {
         method.check();
+        axistokes::detail::require(!(method.newton() && time), "--time", time.value_or(0),
+                                   "absent with --stationary newton, which leads to no given time");
         if (method.integrator_name() == "adaptive" && time_step) {
             const bool chosen = method.integrator.has_value();
             axistokes::detail::require(false, "--dt", *time_step,
