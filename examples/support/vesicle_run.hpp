@@ -43,6 +43,9 @@ class VesicleRun {
           wall_(std::move(wall)),
           frames_(run_.frame_times),
           approach_(params_.tolerance) {
+        // The solver for one more kind of scene would take a minute to compile.
+        axistokes::detail::require(!Wall::present || !run_.method.newton(), "--stationary", run_.method.stationary,
+                                   "march with --method wall");
         start(run_.adapts() ? first_elements<Discretization> : run_.elements_or(spectral ? 32 : 64));
     }
 
@@ -57,12 +60,7 @@ class VesicleRun {
             guard_ = &guard;
             bar_ = &bar;
             try {
-                if (run_.method.newton()) {
-                    newton();
-                } else {
-                    march_to_the_end();
-                    ending_.take(*simulator_);
-                }
+                solve();
             } catch (const Failure& failure) {
                 ending_.take(*simulator_);
                 ending_.failure = failure.what();
@@ -74,6 +72,17 @@ class VesicleRun {
     }
 
   private:
+    void solve() {
+        if constexpr (!Wall::present) {
+            if (run_.method.newton()) {
+                newton();
+                return;
+            }
+        }
+        march_to_the_end();
+        ending_.take(*simulator_);
+    }
+
     static Discretization discretization(const std::optional<axistokes::Accuracy<double>>& accuracy) {
         typename Discretization::Params params;
         if (accuracy) {
