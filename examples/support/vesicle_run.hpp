@@ -117,9 +117,9 @@ class VesicleRun {
         return run_.transient() ? least : std::max(least, std::min(5e-3, residual));
     }
 
-    /// Steps until the residual is below `residual`, until `last` steps or the end of the run; with more modes as soon
-    /// as the shape needs them.
-    void march(double residual, Index last) {
+    /// At least `first` steps, then until the residual is below `residual`, until `last` steps or the end of the run;
+    /// with more modes as soon as the shape needs them.
+    void march(double residual, Index first, Index last) {
         Simulator& s = *simulator_;
         bool going = true;
         const auto observe = [&](const auto& record) {
@@ -129,7 +129,8 @@ class VesicleRun {
             const double by_time = record.time / params_.longest_time;
             const double by_steps = static_cast<double>(record.step) / static_cast<double>(params_.most_steps);
             bar_->show(std::max({approach_.fraction(record.residual), by_time, by_steps}), text.str());
-            going = !(record.residual < residual) && record.step < last && !s.finished() && !guard_->interrupted();
+            going = (record.step < first || !(record.residual < residual)) && record.step < last && !s.finished() &&
+                    !guard_->interrupted();
             return going && !needs_modes(record.residual);
         };
         while (going) {
@@ -159,7 +160,7 @@ class VesicleRun {
     }
 
     void march_to_the_end() {
-        const auto march_on = [&] { march(params_.tolerance, params_.most_steps); };
+        const auto march_on = [&] { march(params_.tolerance, 0, params_.most_steps); };
         march_on();
         if constexpr (spectral) {
             judge(simulator_->configuration().shape);
@@ -203,9 +204,11 @@ class VesicleRun {
     /// Time steps until a Newton iteration converges; if none does, time steps to the end.
     void newton() {
         constexpr int attempts = 4;
+        // In a strong flow the residual is small from the start, and says little about how far there is to go.
+        constexpr Index least = 20;
         double handover = 3e-2;
         for (int attempt = 0; attempt < attempts && !guard_->interrupted(); ++attempt) {
-            march(std::max(handover, params_.tolerance), std::min<Index>(steps() + 40, params_.most_steps));
+            march(std::max(handover, params_.tolerance), least, std::min<Index>(steps() + 40, params_.most_steps));
             try {
                 converge();
                 details_.erase("newton_failure");
