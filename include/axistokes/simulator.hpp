@@ -150,8 +150,8 @@ class Simulator {
     /// Whether the last step met the stationarity tolerance.
     bool stationary() const { return !history_.empty() && history_.back().residual < params_.tolerance; }
 
-    /// Whether the longest time has passed, up to rounding. Automatic steps end there exactly.
-    bool finished() const { return time_ >= params_.longest_time * (1 - 16 * std::numeric_limits<Scalar>::epsilon()); }
+    /// Whether the longest time has passed; automatic steps end there exactly.
+    bool finished() const { return !(time_ < params_.longest_time); }
 
     /// The shape in the laboratory frame.
     Meridian<Scalar> shape() const {
@@ -181,10 +181,6 @@ class Simulator {
     /// One time step. Throws SimulationFailure, leaving the state as it was.
     const Record& step() {
         Index rejected = 0;
-        const Scalar left = params_.longest_time - time_;
-        if (!params_.time_step && left > Scalar(0) && dt_ > left) {
-            dt_ = left;
-        }
         if (!params_.time_step && time_ < params_.longest_time) {
             dt_ = std::min(dt_, Scalar(params_.longest_time - time_));
         }
