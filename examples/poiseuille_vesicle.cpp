@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
     run.add_to(app);
 
     return examples::run_program("poiseuille_vesicle", app, argc, argv, [&] {
+        run.method.check();
         if (unbounded->count() > 0) {
             const auto initial = [&](axistokes::Index elements) { return vesicle.shape(elements); };
             const axistokes::UnboundedPoiseuille<double> flow(unbounded_capillary_number);

@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     run.add_to(app);
 
     return examples::run_program("relaxing_vesicle", app, argc, argv, [&] {
+        run.method.check();
         if (by_area->count() == 0) {
             require(reduced_volume > 0 && reduced_volume <= 1, "reduced volume", reduced_volume, "in (0, 1]");
             vesicle.excess_area = 4 * std::numbers::pi * (std::pow(reduced_volume, -2.0 / 3) - 1);

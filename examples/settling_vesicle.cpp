@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     run.add_to(app);
 
     return examples::run_program("settling_vesicle", app, argc, argv, [&] {
+        run.method.check();
         const auto initial = [&](axistokes::Index elements) {
             return tube.confinement ? tube.shape(vesicle, elements) : vesicle.shape(elements);
         };
