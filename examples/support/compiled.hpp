@@ -80,9 +80,6 @@ using RigidBody = CompiledMembrane<axistokes::RigidBody<double>, typename Discre
 template <class Discretization>
 using OpenScene = axistokes::Scene<OptionalTubeKernel, Discretization, Vesicle<Discretization>, Drive,
                                    axistokes::DenseLU<double>, axistokes::NoWall>;
-template <class Discretization>
-using MeshedScene = axistokes::Scene<axistokes::FreeSpaceKernel<double>, Discretization, Vesicle<Discretization>, Drive,
-                                     axistokes::DenseLU<double>, axistokes::WallMesh<axistokes::StraightTube<double>>>;
 
 extern template class Compiled<axistokes::LinearElements<double>>;
 extern template class Compiled<axistokes::SpectralMeridian<double>>;
@@ -93,7 +90,5 @@ extern template class CompiledMembrane<axistokes::RigidBody<double>, axistokes::
 
 extern template class CompiledSolver<OpenScene<LinearElements>>;
 extern template class CompiledSolver<OpenScene<SpectralMeridian>>;
-extern template class CompiledSolver<MeshedScene<LinearElements>>;
-extern template class CompiledSolver<MeshedScene<SpectralMeridian>>;
 
 }  // namespace examples
