@@ -121,7 +121,7 @@ def main():
     parser.add_argument("scene", nargs="*", help="scenes whose names begin so; default: all")
     parser.add_argument("--bin", default="build/examples", help="directory of the programs (default: build/examples)")
     parser.add_argument("--work", default="build/presets", help="directory for the runs (default: build/presets)")
-    parser.add_argument("--stationary", default="newton", help="march or newton (default: newton)")
+    parser.add_argument("--stationary", default="march", help="march or newton (default: march)")
     parser.add_argument("--timeout", type=float, default=240, help="seconds a run may take (default: 240)")
     parser.add_argument("--reuse", action="store_true", help="take runs that are in --work already")
     arguments = parser.parse_args()
