@@ -23,7 +23,7 @@ using Settling = Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesi
 
 Settling settling(int order, const SimulationParams<double>& params) {
     return Settling(spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, 24), Gravity<double>(47.0), params, {},
-                    {}, {}, ExtrapolatedEulerOfOrder(order));
+                    LinearElements<double>(), {}, ExtrapolatedEulerOfOrder(order));
 }
 
 TEST_CASE("A tighter accuracy tightens every tolerance, down to what the type resolves") {

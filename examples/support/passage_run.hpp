@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compiled.hpp"
+#include "exit_code.hpp"
 #include "frames.hpp"
 #include "passage_case.hpp"
 #include "progress.hpp"
