@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Error against time and against resolution, for a sphere in a tube, stationary vesicles and a transient: the paper's
-// discretisation and step beside the spectral one with each integrator and Newton's method (docs/accuracy.md).
+// discretisation and step beside the spectral one with each integrator and Newton's method (docs/work_precision.md).
 // Writes DIR/work_precision.csv, which plot_work_precision.py draws.
 #include "work_precision.hpp"
 
@@ -126,12 +126,12 @@ void stationary_vesicles(Table& table) {
 }
 
 void transients(Table& table) {
-    const Outcome exact = transient<Spectral>(Stepping::order3, {64, 512, 0, 0});
+    const Outcome exact = transient<Spectral>(Stepping::order3, {64, 512});
     print_exact("transient", exact);
     for (const Index n : {65, 130, 260}) {
         for (const Index steps : {16, 64, 256}) {
             table.add("transient", "P1, Euler, N = " + std::to_string(n), n, exact, [&] {
-                return transient<Linear>(Stepping::euler, {n, steps, 0, 0});
+                return transient<Linear>(Stepping::euler, {n, steps});
             });
         }
     }
@@ -141,14 +141,12 @@ void transients(Table& table) {
           std::pair("spectral, order 3", Stepping::order3)}) {
         const Stepping how = stepping;
         for (const Index steps : {4, 8, 16, 32, 64, 128, 256}) {
-            table.add("transient", line, kModes, exact, [&] {
-                return transient<Spectral>(how, {kModes, steps, 0, 0});
-            });
+            table.add("transient", line, kModes, exact, [&] { return transient<Spectral>(how, {kModes, steps}); });
         }
     }
     for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
         table.add("transient", "spectral, adaptive", kModes, exact, [&] {
-            return transient<Spectral>(Stepping::order3, {kModes, 0, tolerance, 0});
+            return transient<Spectral>(Stepping::order3, {kModes, 0, tolerance});
         });
     }
 }
