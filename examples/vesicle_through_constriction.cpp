@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A vesicle is carried through a channel that narrows to less than its rest radius.
 #include "support/frames.hpp"
+#include "support/neck.hpp"
 #include "support/program.hpp"
 #include "support/progress.hpp"
 #include <axistokes/axistokes.hpp>
@@ -158,6 +159,13 @@ int run(const Options& options, const Profile& profile) {
                 if (std::abs(record.velocity) < stuck * simulator.scene().velocity_scale()) {
                     throw SimulationFailure("the vesicle is stuck at z = " + std::to_string(record.position) +
                                             ": this flow rate does not press it through the throat");
+                }
+                const auto neck = examples::thinnest_neck(now);
+                if (neck && neck->radius < neck->element / 2) {
+                    std::ostringstream cause;
+                    cause << "the membrane pinches off at z = " << neck->z << ": the radius of its neck, "
+                          << neck->radius << ", is less than half of an element there";
+                    throw SimulationFailure(cause.str());
                 }
                 std::ostringstream text;
                 text << "step " << record.step << "  z " << record.position << "  film " << record.film_thickness_min;
