@@ -230,7 +230,7 @@ def vesicle_in_tube(g):
 @figure
 def narrow_tube(g):
     """A vesicle like a red blood cell in a very narrow pore."""
-    refinement(g, "narrow_tube", r"$\Delta$ = 4.8, $R_c/R_0$ = 0.55, Ca = 100", (130, 200, 260), excess_area=4.8,
+    refinement(g, "narrow_tube", r"$\Delta$ = 4.8, $R_c/R_0$ = 0.55, Ca = 100", (130, 200), excess_area=4.8,
                confinement="1/0.55", capillary_number=100)
 
 
