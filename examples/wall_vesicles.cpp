@@ -186,15 +186,13 @@ void cost(const Options& options, const State& state) {
         tube.confine(fine, scene.kernel(), configuration.shape, frozen.mobility, frozen.background);
         return force_error(scene.evaluate(frozen, configuration, 0));
     };
-    const auto search = [&](const std::vector<WallGrading>& gradings) {
+    for (const WallGrading grading : {WallGrading::automatic, WallGrading::uniform}) {
         const auto best = examples::cheapest_wall(StraightTube<double>(options.radius()), configuration.shape,
-                                                  options.accuracy, gradings, {4, 3, 5, 6, 8, 2}, lengths, wall_error);
+                                                  options.accuracy, {grading}, {4, 3, 5, 6, 8, 2}, lengths, wall_error);
         if (best.error < options.accuracy) {
             report("fewest", best.params);
         }
-    };
-    search({WallGrading::automatic, WallGrading::uniform});
-    search({WallGrading::uniform});
+    }
 }
 
 /// Up- and downstream of a stationary vesicle.
