@@ -5,6 +5,7 @@
 #include "compiled.hpp"
 #include "exit_code.hpp"
 #include "frames.hpp"
+#include "neck.hpp"
 #include "passage_case.hpp"
 #include "progress.hpp"
 #include "resolution.hpp"
@@ -146,6 +147,13 @@ int pass(const PassageOptions& options) {
                     throw axistokes::SimulationFailure(
                         "the vesicle is stuck at z = " + std::to_string(record.position) +
                         ": this flow rate does not press it through the throat");
+                }
+                const auto neck = thinnest_neck(now);
+                if (neck && neck->radius < neck->element / 2) {
+                    std::ostringstream cause;
+                    cause << "the membrane pinches off at z = " << neck->z << ": the radius of its neck, "
+                          << neck->radius << ", is less than half of an element there";
+                    throw axistokes::SimulationFailure(cause.str());
                 }
                 std::ostringstream text;
                 text << "step " << record.step << "  z " << record.position << "  film " << record.film_thickness_min;
