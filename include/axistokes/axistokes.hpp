@@ -2,6 +2,7 @@
 // Everything. A program that wants less includes the headers of its own policies and simulator.hpp.
 #pragma once
 
+#include "accuracy.hpp"
 #include "discretization/linear_elements.hpp"
 #include "discretization/spectral_meridian.hpp"
 #include "flow/background.hpp"
