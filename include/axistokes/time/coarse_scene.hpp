@@ -13,7 +13,9 @@ namespace axistokes::detail {
 /// `part` with integrals as coarse as `tolerance`, if it knows one.
 template <class Part, class S>
 Part loosened(const Part& part, const S& tolerance) {
-    if constexpr (requires { { part.loosened(tolerance) } -> std::same_as<Part>; }) {
+    if constexpr (requires {
+                      { part.loosened(tolerance) } -> std::same_as<Part>;
+                  }) {
         return part.loosened(tolerance);
     } else {
         return part;
@@ -22,8 +24,8 @@ Part loosened(const Part& part, const S& tolerance) {
 
 template <class SceneType, class S>
 SceneType loosened_scene(const SceneType& scene, const S& tolerance) {
-    return SceneType(loosened(scene.kernel(), tolerance), loosened(scene.discretization(), tolerance),
-                     scene.membrane(), scene.flow(), scene.solver(), scene.wall());
+    return SceneType(loosened(scene.kernel(), tolerance), loosened(scene.discretization(), tolerance), scene.membrane(),
+                     scene.flow(), scene.solver(), scene.wall());
 }
 
 /// Whether a meridian of the scene can be taken to one with fewer nodes and back.

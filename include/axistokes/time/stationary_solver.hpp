@@ -7,14 +7,11 @@
 // Euler method, (1/dt - J) phi = w, with the longest dt that keeps the displacement within bounds.
 #pragma once
 
-#include "velocity_jacobian.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "stationary_equations.hpp"
 
 #include <algorithm>
 #include <complex>
-#include <optional>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -49,6 +46,7 @@ struct StationaryState {
     Index jacobians = 0;           // likewise
     Index coarse_evaluations = 0;  // with half of the modes, or fewer
     Index coarse_jacobians = 0;
+    Index mobility_changes = 0;  // coarse linearisations of the single layer
 };
 
 /// Finds and examines stationary states of a scene with a deformable membrane.
@@ -82,24 +80,28 @@ requires(SceneType::deformable) class StationarySolver {
     State solve(const Meridian<Scalar>& shape, const Scalar& area, const Scalar& volume) {
         validate(shape);
         State state;
+        Linearisation linearisation;
         if constexpr (detail::Resampling<SceneType>) {
             const Index half = shape.elements() / 2;
             if (params_.coarse_start && half >= least_degree) {
                 try {
-                    State coarse;
                     const auto& resample = scene_.discretization();
-                    iterate(coarse_, resample.resampled(shape, half), area, volume, coarse_tolerance(), coarse);
+                    State coarse;
+                    iterate(coarse_, resample.resampled(shape, half), area, volume, coarse_tolerance, linearisation,
+                            coarse);
                     state.coarse_evaluations = coarse.evaluations;
                     state.coarse_jacobians = coarse.jacobians;
+                    state.mobility_changes = coarse.mobility_changes;
                     iterate(scene_, resample.resampled(coarse.configuration.shape, shape.elements()), area, volume,
-                            params_.tolerance, state);
+                            params_.tolerance, linearisation, state);
                     return state;
                 } catch (const SimulationFailure&) {
-                    // The shape may not be resolved by half the modes.
+                    // Half of the modes may not resolve the shape.
+                    linearisation = {};
                 }
             }
         }
-        iterate(scene_, shape, area, volume, params_.tolerance, state);
+        iterate(scene_, shape, area, volume, params_.tolerance, linearisation, state);
         return state;
     }
 
@@ -107,10 +109,13 @@ requires(SceneType::deformable) class StationarySolver {
     /// first: the eigenvalues of dw/dphi on these disturbances. The state is stable if all are negative.
     std::vector<std::complex<Scalar>> growth_rates(const State& state) {
         if constexpr (detail::Resampling<SceneType>) {
-            Point point;
-            point.configuration = state.configuration;
-            evaluate(scene_, point);
-            return rates(state.instant.surface, state.configuration, jacobian_at(scene_, point));
+            const auto frozen = scene_.freeze(state.configuration);
+            detail::MobilityChange<SceneType> change;
+            find(change, state.configuration, state.instant, finest_change);
+            return detail::growth_rates<Scalar>(
+                state.instant.surface, state.configuration.shape.z,
+                detail::velocity_jacobian(scene_, frozen, state.configuration, state.instant,
+                                          change.at_nodes(scene_, state.instant.surface.size())));
         } else {
             return growth_rates(state, Scalar(1e-5));
         }
@@ -126,24 +131,25 @@ requires(SceneType::deformable) class StationarySolver {
                                disturbed(state, -step * Vector<Scalar>::Unit(n, j))) /
                               (2 * step);
         }
-        return rates(surface, state.configuration, jacobian);
+        return detail::growth_rates<Scalar>(surface, state.configuration.shape.z, jacobian);
     }
 
   private:
-    /// Of a meridian whose solution is a first guess, and of the one on which the mobility's change is found.
+    using Point = detail::StationaryPoint<SceneType>;
+
+    /// Least degree and residual of a solution that is a first guess.
     static constexpr Index least_degree = 12;
-    static constexpr Index change_degree = 16;
-    static constexpr Index change_modes = 11;
+    static constexpr Scalar coarse_tolerance = Scalar(1e-4);
+    /// Degrees of the meridian on which the mobility's change is found: at first, and how far it may be raised.
+    static constexpr Index coarsest_change = 12;
+    static constexpr Index finest_change = 24;
+    /// Displacement after which the mobility's change is found again, in R0.
+    static constexpr Scalar stale_change = Scalar(0.1);
 
-    struct Point {
-        Configuration<Scalar> configuration;
-        Frozen frozen;
-        InstantType instant;
-        Vector<Scalar> velocity;
-        Scalar residual{};
+    struct Linearisation {
+        detail::MobilityChange<SceneType> change;
+        Scalar travelled = std::numeric_limits<Scalar>::max();  // since then, in R0
     };
-
-    static Scalar coarse_tolerance() { return Scalar(1e-4); }
 
     static std::string text(const Scalar& value) {
         std::ostringstream out;
@@ -151,45 +157,54 @@ requires(SceneType::deformable) class StationarySolver {
         return out.str();
     }
 
+    void find(detail::MobilityChange<SceneType>& change, const Configuration<Scalar>& configuration,
+              const InstantType& instant, Index degree) {
+        const Index used = std::min(degree, configuration.shape.elements());
+        change.find(coarse_, configuration, instant.solution.force, used, (3 * used) / 4);
+    }
+
     /// From `shape` to the stationary state of `scene`; counts what it takes, also when it fails.
     void iterate(SceneType& scene, const Meridian<Scalar>& shape, const Scalar& area, const Scalar& volume,
-                 const Scalar& tolerance, State& state) {
+                 const Scalar& tolerance, Linearisation& linearisation, State& state) {
         Point point;
         point.configuration.shape = shape;
         scene.discretization().redistribute(point.configuration.shape);
-        if (!settle(scene, point.configuration, area, volume)) {
+        if (!detail::settle(scene, point.configuration, area, volume)) {
             throw SimulationFailure("stationary state: the first shape cannot be given the area " + text(area) +
                                     " and the volume " + text(volume));
         }
-        evaluate(scene, point);
+        detail::evaluate(scene, point);
         ++state.evaluations;
-        const Index n = shape.nodes();
-        Matrix<Scalar> learned;
         Matrix<Scalar> jacobian;
         Scalar growth = 0;
-        const auto renew = [&] {
-            jacobian = jacobian_at(scene, point);
-            if (learned.size() == 0) {
-                learned = Matrix<Scalar>::Zero(n, n);
+        const auto renew = [&](Index degree) {
+            if (linearisation.travelled > stale_change || degree > linearisation.change.degree()) {
+                find(linearisation.change, point.configuration, point.instant, degree);
+                linearisation.travelled = 0;
+                ++state.mobility_changes;
             }
+            jacobian = detail::velocity_jacobian(scene, point.frozen, point.configuration, point.instant,
+                                                 linearisation.change.at_nodes(scene, point.velocity.size()));
             ++state.jacobians;
             growth = 0;
             if (params_.only_stable) {
-                growth = std::max(growth, rates(point.frozen.surface, point.configuration, jacobian).front().real());
+                const auto& z = point.configuration.shape.z;
+                growth =
+                    std::max(growth, detail::growth_rates<Scalar>(point.frozen.surface, z, jacobian).front().real());
             }
         };
         Scalar limit = params_.largest_displacement;
-        Index iterations = 0;
-        while (!(point.residual < tolerance)) {
-            if (++iterations > params_.most_iterations) {
+        Index degree = std::max(coarsest_change, linearisation.change.degree());
+        for (Index iteration = 1; !(point.residual < tolerance); ++iteration) {
+            if (iteration > params_.most_iterations) {
                 throw SimulationFailure("stationary state: the residual is " + text(point.residual) + " after " +
                                         std::to_string(params_.most_iterations) + " iterations");
             }
             ++state.iterations;
             if (jacobian.size() == 0) {
-                renew();
+                renew(degree);
             }
-            const Vector<Scalar> step = bounded_step(point, jacobian, 2 * growth, limit);
+            const Vector<Scalar> step = bounded_step(point, jacobian, Scalar(1.1) * growth, limit);
             const Scalar length = step.cwiseAbs().maxCoeff();
             if (!(length < std::numeric_limits<Scalar>::max())) {
                 throw SimulationFailure("stationary state: the linearised equations are singular");
@@ -197,26 +212,28 @@ requires(SceneType::deformable) class StationarySolver {
             Point trial;
             trial.configuration = point.configuration;
             detail::displace<Scalar>(trial.configuration.shape, point.frozen.surface, step);
-            const bool usable = settle(scene, trial.configuration, area, volume);
+            const bool usable = detail::settle(scene, trial.configuration, area, volume);
             bool moved = false;
             if (usable) {
                 moved = scene.discretization().redistribute(trial.configuration.shape);
-                evaluate(scene, trial);
+                detail::evaluate(scene, trial);
                 ++state.evaluations;
             }
             if (usable && !moved) {
                 const Vector<Scalar> missed = trial.velocity - point.velocity - jacobian * step;
                 jacobian += missed * step.transpose() / step.squaredNorm();
             }
-            if (trace) {
-                std::printf("    n %d it %d res %.2e -> %.2e len %.2e limit %.2e growth %.2f moved %d usable %d\n", (int)n, (int)iterations, (double)point.residual, (double)trial.residual, (double)length, (double)limit, (double)growth, moved, usable);
-            }
             if (usable && trial.residual <= params_.allowed_increase * point.residual) {
                 // As long as the iteration converges well, what it has learned is cheaper than a new Jacobian.
                 const bool stale = moved || !(trial.residual < point.residual / params_.renewal);
+                const bool short_step = length < limit / 10;
                 point = std::move(trial);
+                linearisation.travelled += length + (moved ? stale_change / 2 : Scalar(0));
                 if (stale && !(point.residual < tolerance)) {
-                    renew();
+                    if (short_step && linearisation.travelled < stale_change) {
+                        degree = std::min(degree + 6, finest_change);
+                    }
+                    renew(degree);
                 }
                 limit = std::min(params_.largest_displacement, Scalar(2 * limit));
             } else {
@@ -231,94 +248,19 @@ requires(SceneType::deformable) class StationarySolver {
         state.instant = std::move(point.instant);
         state.residual = point.residual;
     }
-  public: static inline bool trace = false; private:
-
-    Matrix<Scalar> jacobian_at(SceneType& scene, const Point& point) {
-        Matrix<Scalar> mobility_change;
-        if constexpr (detail::Resampling<SceneType>) {
-            const Index degree = std::min(change_degree, point.frozen.surface.size() - 1);
-            mobility_change = detail::coarse_mobility_change(coarse_, point.configuration,
-                                                             point.instant.solution.force, degree, change_modes);
-        }
-        return detail::velocity_jacobian(scene, point.frozen, point.configuration, point.instant, mobility_change);
-    }
-
-    static void evaluate(SceneType& scene, Point& point) {
-        point.frozen = scene.freeze(point.configuration);
-        point.instant = scene.evaluate(point.frozen, point.configuration, Scalar(0));
-        point.velocity = relative_velocity(point.configuration, point.instant);
-        point.residual = point.instant.deformation_rate / std::max(Scalar(1), scene.velocity_scale());
-    }
-
-    static Vector<Scalar> relative_velocity(const Configuration<Scalar>& configuration, const InstantType& instant) {
-        return detail::relative_normal_velocity<Scalar>(instant.surface, configuration.shape.z,
-                                                        instant.solution.velocity)
-            .second;
-    }
 
     Vector<Scalar> disturbed(const State& state, const Vector<Scalar>& displacement) {
         Configuration<Scalar> moved = state.configuration;
         detail::displace<Scalar>(moved.shape, state.instant.surface, displacement);
-        return relative_velocity(moved, scene_.evaluate(moved, Scalar(0)));
+        const auto instant = scene_.evaluate(moved, Scalar(0));
+        return detail::relative_normal_velocity<Scalar>(instant.surface, moved.shape.z, instant.solution.velocity)
+            .second;
     }
 
-    /// Restores area and volume and puts the centroid at 0; false if the shape is unusable.
-    static bool settle(const SceneType& scene, Configuration<Scalar>& configuration, const Scalar& area,
-                       const Scalar& volume) {
-        Meridian<Scalar>& shape = configuration.shape;
-        const auto proper = [&] {
-            return shape.r.allFinite() && shape.z.allFinite() &&
-                   shape.r.segment(1, shape.nodes() - 2).minCoeff() > Scalar(0) && !self_intersection(shape) &&
-                   scene.film_thickness(configuration).min > Scalar(0);
-        };
-        if (!proper() || !scene.discretization().restore(shape, area, volume) || !proper()) {
-            return false;
-        }
-        shape.z.array() -= scene.discretization().measures(shape).centroid;
-        return true;
-    }
-
-    /// Rows: the change of volume, area and centroid by a normal displacement (phi, 2 H phi and z phi integrated).
-    /// Columns: the displacements n, H n and the translation that correct them.
-    template <class Surface>
-    static std::pair<Matrix<Scalar>, Matrix<Scalar>> constraints(const Surface& surface,
-                                                                 const Configuration<Scalar>& configuration) {
-        const Index n = surface.size();
-        Matrix<Scalar> gradients(3, n);
-        gradients.row(0) = surface.weight.transpose();
-        gradients.row(1) = 2 * surface.weight.cwiseProduct(surface.mean_curvature).transpose();
-        gradients.row(2) = surface.weight.cwiseProduct(configuration.shape.z).transpose();
-        Matrix<Scalar> corrections(n, 3);
-        corrections << Vector<Scalar>::Ones(n), surface.mean_curvature, surface.normal_z;
-        return {std::move(gradients), std::move(corrections)};
-    }
-
-    template <class Surface>
-    static std::vector<std::complex<Scalar>> rates(const Surface& surface, const Configuration<Scalar>& configuration,
-                                                   const Matrix<Scalar>& jacobian) {
-        const Index n = surface.size();
-        const auto [gradients, corrections] = constraints(surface, configuration);
-        const Matrix<Scalar> basis =
-            Matrix<Scalar>(Matrix<Scalar>(gradients.transpose()).householderQr().householderQ()).rightCols(n - 3);
-        const Matrix<Scalar> kept =
-            jacobian - corrections * (gradients * corrections).partialPivLu().solve(gradients * jacobian);
-        const Matrix<Scalar> reduced = basis.transpose() * kept * basis;
-        const Vector<std::complex<Scalar>> values = reduced.eigenvalues();
-        std::vector<std::complex<Scalar>> rates(values.data(), values.data() + values.size());
-        std::sort(rates.begin(), rates.end(), [](const auto& a, const auto& b) { return a.real() > b.real(); });
-        return rates;
-    }
-
-    /// (J - s) phi + (a + b H + c n_z) = -w with the three constraints' changes zero. The multipliers vanish with w:
-    /// they take up what is left of w's three exact dependencies.
-    static Vector<Scalar> newton_step(const Point& point, const Matrix<Scalar>& jacobian, const Scalar& shift) {
-        const Index n = jacobian.rows();
-        const auto [gradients, corrections] = constraints(point.frozen.surface, point.configuration);
-        Matrix<Scalar> system = Matrix<Scalar>::Zero(n + 3, n + 3);
-        system.topLeftCorner(n, n) = jacobian;
+    /// (J - s) phi = -w with the constraints' changes zero.
+    static Vector<Scalar> newton_step(const Point& point, Matrix<Scalar> system, const Scalar& shift) {
+        const Index n = point.velocity.size();
         system.diagonal().head(n).array() -= shift;
-        system.topRightCorner(n, 3) = corrections;
-        system.bottomLeftCorner(3, n) = gradients;
         Vector<Scalar> rhs = Vector<Scalar>::Zero(n + 3);
         rhs.head(n) = -point.velocity;
         return system.partialPivLu().solve(rhs).head(n);
@@ -328,19 +270,21 @@ requires(SceneType::deformable) class StationarySolver {
     static Vector<Scalar> bounded_step(const Point& point, const Matrix<Scalar>& jacobian, const Scalar& least,
                                        const Scalar& limit) {
         using std::sqrt;
-        Vector<Scalar> step = newton_step(point, jacobian, least);
+        const Matrix<Scalar> system =
+            detail::bordered<Scalar>(point.frozen.surface, point.configuration.shape.z, jacobian);
+        Vector<Scalar> step = newton_step(point, system, least);
         if (step.cwiseAbs().maxCoeff() <= limit) {
             return step;
         }
-        // With no elasticity the displacement is w/s.
+        // Without elasticity the displacement is w/s.
         Scalar high = least + point.velocity.cwiseAbs().maxCoeff() / limit;
         Scalar low = least + (high - least) / Scalar(4096);
         for (int k = 0; k < 5; ++k) {
             const Scalar middle = least + sqrt((low - least) * (high - least));
-            step = newton_step(point, jacobian, middle);
+            step = newton_step(point, system, middle);
             (step.cwiseAbs().maxCoeff() > limit ? low : high) = middle;
         }
-        step = newton_step(point, jacobian, high);
+        step = newton_step(point, system, high);
         const Scalar length = step.cwiseAbs().maxCoeff();
         return length > limit ? Vector<Scalar>(step * (limit / length)) : step;
     }

@@ -69,29 +69,49 @@ Matrix<typename SceneType::Scalar> mobility_change(SceneType& scene,
     return change;
 }
 
-/// The same as a matrix 2n x n for the nodes of `configuration`, found on a coarse meridian: the change of G f is
-/// smoother by three derivatives than that of the bending force.
+/// The change of G f with normal displacements, found on a coarse meridian: it is smoother by three derivatives than
+/// that of the bending force. Kept as modes, it serves any number of nodes, and shapes near by.
 template <class SceneType>
-Matrix<typename SceneType::Scalar> coarse_mobility_change(
-    SceneType& coarse, const Configuration<typename SceneType::Scalar>& configuration,
-    const Vector<typename SceneType::Scalar>& force, Index degree, Index modes) {
+class MobilityChange {
+  public:
     using S = typename SceneType::Scalar;
-    const Index n = configuration.shape.nodes();
-    const Index few = degree + 1;
-    const auto down = coarse.discretization().transfer(n - 1, degree);
-    const auto up = coarse.discretization().transfer(degree, n - 1);
-    const Configuration<S> there{{down->odd * configuration.shape.r, down->even * configuration.shape.z},
-                                 configuration.position,
-                                 {}};
-    Vector<S> coarse_force(2 * few);
-    coarse_force << down->odd * force.head(n), down->even * force.tail(n);
-    const Matrix<S> change =
-        mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>());
-    const auto amplitudes = down->amplitudes.topRows(modes);
-    Matrix<S> result(2 * n, n);
-    result << up->odd * (change.topRows(few) * amplitudes), up->even * (change.bottomRows(few) * amplitudes);
-    return result;
-}
+
+    Index degree() const { return degree_; }
+
+    /// An assembly with `degree` modes for each of the first `modes` modes of the displacement.
+    void find(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force, Index degree,
+              Index modes) {
+        degree_ = degree;
+        if constexpr (Resampling<SceneType>) {
+            const Index n = configuration.shape.nodes();
+            const auto down = coarse.discretization().transfer(n - 1, degree);
+            const Configuration<S> there{
+                coarse.discretization().resampled(configuration.shape, degree), configuration.position, {}};
+            Vector<S> coarse_force(2 * (degree + 1));
+            coarse_force << down->odd * force.head(n), down->even * force.tail(n);
+            change_ = mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>());
+        }
+    }
+
+    /// 2n x n; empty if no change was found.
+    Matrix<S> at_nodes(const SceneType& scene, Index n) const {
+        Matrix<S> result;
+        if constexpr (Resampling<SceneType>) {
+            if (change_.size() > 0) {
+                const auto up = scene.discretization().transfer(degree_, n - 1);
+                const auto down = scene.discretization().transfer(n - 1, degree_);
+                const Matrix<S> by_node = change_ * down->amplitudes.topRows(change_.cols());
+                result.resize(2 * n, n);
+                result << up->odd * by_node.topRows(degree_ + 1), up->even * by_node.bottomRows(degree_ + 1);
+            }
+        }
+        return result;
+    }
+
+  private:
+    Index degree_ = 0;
+    Matrix<S> change_;
+};
 
 /// d(normal velocity relative to the centroid)/d(normal displacement) of u = u_inf + G (F + load + T gamma), D u = 0.
 /// The derivatives of F, T, D, of the load, of u_inf and of the normals are one-sided differences, without assemblies;
