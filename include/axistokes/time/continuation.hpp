@@ -22,7 +22,8 @@ namespace axistokes {
 /// ContinuationProblem: `Point` is a value of (x, p) with what was computed there. `defect` is F, `derivative` is
 /// (dF/dx, dF/dp), m x (m + 1), `residual` a norm of F. `moved(point, dx, dp)` is the point displaced, without a value
 /// if there is none, for instance because a shape intersects itself. `growth(point, derivative)` is the largest real
-/// part of the growth rates.
+/// part of the growth rates. An optional `regularize(point)` may change a solution's representation, for instance move
+/// its nodes, and returns whether it did; the solution then is corrected again.
 template <class P>
 concept ContinuationProblem = requires(P& problem, const typename P::Point& point, const Vector<typename P::Scalar>& dx,
                                        const typename P::Scalar& dp, const Matrix<typename P::Scalar>& derivative) {
@@ -253,8 +254,21 @@ class Continuation {
         if (!trial) {
             return std::nullopt;
         }
-        const bool natural = params_.method == ContinuationMethod::natural;
-        auto next = corrected(std::move(*trial), from.derivative, natural ? fixed_parameter(from.point) : from.tangent);
+        const Vector<Scalar> normal =
+            params_.method == ContinuationMethod::natural ? fixed_parameter(from.point) : from.tangent;
+        auto next = corrected(std::move(*trial), from.derivative, normal);
+        if constexpr (requires(Point & point) {
+                          { problem_.regularize(point) } -> std::same_as<bool>;
+                      }) {
+            if (next && problem_.regularize(next->point)) {
+                const Index corrections = next->corrections;
+                Matrix<Scalar> derivative = problem_.derivative(next->point);
+                next = corrected(std::move(next->point), std::move(derivative), normal);
+                if (next) {
+                    next->corrections += corrections;
+                }
+            }
+        }
         if (next) {
             finish(*next, from.tangent);
         }

@@ -92,11 +92,27 @@ requires(SceneType::deformable) class StationaryBranch {
         return derivative;
     }
 
-    std::optional<Point> moved(const Point& point, const Vector<Scalar>& dx, const Scalar& dp) {
+    std::optional<Point> moved(const Point& point, const Vector<Scalar>& dx, const Scalar& dp) const {
         Configuration<Scalar> configuration = point.state.configuration;
         const Index n = configuration.shape.nodes();
         detail::displace<Scalar>(configuration.shape, point.state.frozen.surface, dx.head(n));
         return evaluated(point.parameter + dp, std::move(configuration));
+    }
+
+    /// Nodes are moved between solutions: within an iteration that would upset what it has learned.
+    bool regularize(Point& point) const {
+        Meridian<Scalar> shape = point.state.configuration.shape;
+        if (!point.scene->discretization().redistribute(shape)) {
+            return false;
+        }
+        Configuration<Scalar> configuration = point.state.configuration;
+        configuration.shape = std::move(shape);
+        auto moved = evaluated(point.parameter, std::move(configuration));
+        if (!moved) {
+            return false;
+        }
+        point = std::move(*moved);
+        return true;
     }
 
     Scalar growth(const Point& point, const Matrix<Scalar>& derivative) const {
@@ -108,19 +124,13 @@ requires(SceneType::deformable) class StationaryBranch {
     }
 
   private:
-    std::optional<Point> evaluated(const Scalar& p, Configuration<Scalar> configuration) {
+    std::optional<Point> evaluated(const Scalar& p, Configuration<Scalar> configuration) const {
         Point point;
         point.parameter = p;
         point.scene = std::make_shared<SceneType>(scene_(p));
         point.state.configuration = std::move(configuration);
         if (!detail::settle(*point.scene, point.state.configuration, area_(p), volume_(p))) {
             return std::nullopt;
-        }
-        if (point.scene->discretization().redistribute(point.state.configuration.shape)) {
-            // The curve changes a little, as far as the new series cannot represent it.
-            if (!detail::settle(*point.scene, point.state.configuration, area_(p), volume_(p))) {
-                return std::nullopt;
-            }
         }
         detail::evaluate(*point.scene, point.state);
         return point;
