@@ -6,6 +6,7 @@
 #include <axistokes/discretization/spectral_meridian.hpp>
 #include <axistokes/flow/poiseuille.hpp>
 #include <axistokes/geometry/tube_shapes.hpp>
+#include <axistokes/io/atomic_file.hpp>
 #include <axistokes/kernel/tube.hpp>
 #include <axistokes/membrane/vesicle.hpp>
 #include <axistokes/scene.hpp>
@@ -20,6 +21,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -38,6 +40,7 @@ struct Settings {
     Index most_elements = 96;
     double tolerance = 1e-9;
     double unresolved = 1e-4;
+    std::string shapes;  // directory; none if empty
 };
 
 struct Found {
@@ -62,7 +65,7 @@ class Diagram {
     explicit Diagram(Settings settings) : settings_(settings) {}
 
     /// The states that the two starts lead to, one if it is the same, and what went wrong.
-    std::pair<std::vector<Found>, std::string> solve(const Case& wanted) const {
+    std::pair<std::vector<Found>, std::string> solve(const Case& wanted) {
         std::vector<Found> found;
         std::string failure;
         for (const SpheroidKind kind : {SpheroidKind::prolate, SpheroidKind::oblate}) {
@@ -97,27 +100,44 @@ class Diagram {
     Solver solver(const Case& c) const {
         StationaryParams<double> params;
         params.tolerance = settings_.tolerance;
+        params.most_iterations = 200;
         return Solver(scene_of(c.confinement, c.capillary_number), params);
     }
 
-    /// An oblate start that does not fit is solved in a wider tube, which then is narrowed.
-    std::optional<Found> from(SpheroidKind kind, const Case& wanted) const {
+    /// An oblate start that does not fit is solved in a wider tube, which then is narrowed; or the last case's state is
+    /// taken, if its tube was wider and the rest the same.
+    std::optional<Found> from(SpheroidKind kind, const Case& wanted) {
         const double excess = excess_area(wanted.reduced_volume);
+        const auto start = [&](double confinement) {
+            return shape_in_tube<double>(excess, 1 / confinement, kind, settings_.elements);
+        };
+        if (kind == SpheroidKind::prolate) {
+            return refined(solver(wanted).solve(start(wanted.confinement), area(wanted), volume()), wanted);
+        }
         Case fitting = wanted;
-        if (kind == SpheroidKind::oblate) {
-            const auto spheroid = spheroid_of_excess_area<double>(excess, kind, settings_.elements);
-            fitting.confinement = std::min(wanted.confinement, 0.8 / spheroid.r.maxCoeff());
+        const auto spheroid = spheroid_of_excess_area<double>(excess, kind, settings_.elements);
+        fitting.confinement = std::min(wanted.confinement, 0.8 / spheroid.r.maxCoeff());
+        if (fitting.confinement == wanted.confinement) {
+            return remembered(solver(wanted).solve(start(wanted.confinement), area(wanted), volume()), wanted);
         }
-        auto state = solver(fitting).solve(
-            shape_in_tube<double>(excess, 1 / fitting.confinement, kind, settings_.elements), area(wanted), volume());
-        if (fitting.confinement < wanted.confinement) {
-            const auto shape = narrowed(state.configuration.shape, fitting, wanted);
-            if (!shape) {
-                return std::nullopt;
-            }
-            state = solver(wanted).solve(*shape, area(wanted), volume());
+        Meridian<double> shape;
+        if (last_ && last_->first.reduced_volume == wanted.reduced_volume &&
+            last_->first.capillary_number == wanted.capillary_number && last_->first.confinement < wanted.confinement) {
+            std::tie(fitting, shape) = *last_;
+        } else {
+            shape = solver(fitting).solve(start(fitting.confinement), area(wanted), volume()).configuration.shape;
         }
-        return refined(std::move(state), wanted);
+        const auto narrow = narrowed(shape, fitting, wanted);
+        if (!narrow) {
+            return std::nullopt;
+        }
+        return remembered(solver(wanted).solve(*narrow, area(wanted), volume()), wanted);
+    }
+
+    Found remembered(Solver::State state, const Case& wanted) {
+        Found found = refined(std::move(state), wanted);
+        last_.emplace(wanted, found.state.configuration.shape);
+        return found;
     }
 
     /// Along the branch of states to the confinement wanted; none if the branch ends in a fold before.
@@ -159,6 +179,7 @@ class Diagram {
     }
 
     Settings settings_;
+    std::optional<std::pair<Case, Meridian<double>>> last_;  // of the oblate start
 };
 
 const char* const kHeader =
@@ -188,6 +209,21 @@ std::string rows(const Case& c, const std::vector<Found>& found, const std::stri
     return out.str();
 }
 
+void write_shapes(const std::filesystem::path& directory, const Case& c, const std::vector<Found>& found) {
+    for (const Found& f : found) {
+        std::ostringstream name;
+        name << "shape_" << c.confinement << '_' << c.reduced_volume << '_' << c.capillary_number << '_' << f.start
+             << ".csv";
+        const Meridian<double>& shape = f.state.configuration.shape;
+        write_atomically(directory / name.str(), [&](std::ostream& out) {
+            out << "r,z\n";
+            for (Index i = 0; i < shape.nodes(); ++i) {
+                out << shape.r[i] << ',' << shape.z[i] << '\n';
+            }
+        });
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -210,6 +246,7 @@ int main(int argc, char** argv) {
     examples::add_number(app, "--max-elements", settings.most_elements, "modes to end with, at most");
     examples::add_number(app, "--unresolved", settings.unresolved, "share of the slope in the last quarter of modes");
     examples::add_number(app, "--tolerance", settings.tolerance, "residual");
+    app.add_option("--shapes", settings.shapes, "directory that receives the shapes, a file each");
     app.add_option("--out", directory, "directory that receives diagram.csv; created if missing")->required();
     return examples::run_program("shape_diagram", app, argc, argv, [&] {
         detail::require(settings.elements >= 24, "elements", settings.elements, "at least 24");
@@ -219,7 +256,7 @@ int main(int argc, char** argv) {
             cases->count() > 0 ? examples::read_cases(input)
                                : examples::grid(confinement.values(), reduced_volume.values(), capillary_number);
         examples::CaseTable table(std::filesystem::path(directory) / "diagram.csv", kHeader);
-        const Diagram diagram(settings);
+        Diagram diagram(settings);
         std::size_t done = 0;
         for (const Case& c : wanted) {
             ++done;
@@ -228,6 +265,9 @@ int main(int argc, char** argv) {
             }
             const auto [found, failure] = diagram.solve(c);
             const std::string text = rows(c, found, failure);
+            if (!settings.shapes.empty()) {
+                write_shapes(settings.shapes, c, found);
+            }
             table.append(text);
             std::cout << done << '/' << wanted.size() << ' ' << text << std::flush;
         }
