@@ -14,14 +14,15 @@
 #include <axistokes/time/stationary_branch.hpp>
 #include <axistokes/time/stationary_solver.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -64,15 +65,15 @@ class Diagram {
   public:
     explicit Diagram(Settings settings) : settings_(settings) {}
 
-    /// The states that the two starts lead to, one if it is the same, and what went wrong.
+    /// The states that the starts lead to, one if they are the same, and what went wrong. Where the oblate start finds
+    /// nothing else, the parachute of a case that differs in reduced volume only is tried.
     std::pair<std::vector<Found>, std::string> solve(const Case& wanted) {
         std::vector<Found> found;
         std::string failure;
-        for (const SpheroidKind kind : {SpheroidKind::prolate, SpheroidKind::oblate}) {
-            const std::string name = kind == SpheroidKind::prolate ? "prolate" : "oblate";
+        const auto attempt = [&](const std::string& name, const auto& state) {
             const auto begin = std::chrono::steady_clock::now();
             try {
-                auto next = from(kind, wanted);
+                std::optional<Found> next = state();
                 if (next && (found.empty() || differ(found.front().state, next->state))) {
                     next->start = name;
                     next->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -81,8 +82,23 @@ class Diagram {
             } catch (const std::exception& error) {
                 failure += (failure.empty() ? "" : "; ") + name + ": " + error.what();
             }
+        };
+        attempt("prolate", [&] { return from_prolate(wanted); });
+        attempt("oblate", [&] { return from_oblate(wanted); });
+        if (found.size() < 2) {
+            attempt("neighbour", [&] { return from_neighbour(wanted); });
+        }
+        for (const Found& f : found) {
+            if (is_parachute(f)) {
+                parachutes_.insert_or_assign({wanted.confinement, wanted.capillary_number},
+                                             std::pair(wanted, f.state.configuration.shape));
+            }
         }
         return {std::move(found), std::move(failure)};
+    }
+
+    static bool is_parachute(const Found& f) {
+        return SpectralMeridian<double>().pole_curvatures(f.state.configuration.shape).first <= 0;
     }
 
   private:
@@ -104,59 +120,77 @@ class Diagram {
         return Solver(scene_of(c.confinement, c.capillary_number), params);
     }
 
-    /// An oblate start that does not fit is solved in a wider tube, which then is narrowed; or the last case's state is
-    /// taken, if its tube was wider and the rest the same.
-    std::optional<Found> from(SpheroidKind kind, const Case& wanted) {
-        const double excess = excess_area(wanted.reduced_volume);
-        const auto start = [&](double confinement) {
-            return shape_in_tube<double>(excess, 1 / confinement, kind, settings_.elements);
-        };
-        if (kind == SpheroidKind::prolate) {
-            return refined(solver(wanted).solve(start(wanted.confinement), area(wanted), volume()), wanted);
-        }
-        Case fitting = wanted;
-        const auto spheroid = spheroid_of_excess_area<double>(excess, kind, settings_.elements);
-        fitting.confinement = std::min(wanted.confinement, 0.8 / spheroid.r.maxCoeff());
-        if (fitting.confinement == wanted.confinement) {
-            return remembered(solver(wanted).solve(start(wanted.confinement), area(wanted), volume()), wanted);
-        }
-        Meridian<double> shape;
-        if (last_ && last_->first.reduced_volume == wanted.reduced_volume &&
-            last_->first.capillary_number == wanted.capillary_number && last_->first.confinement < wanted.confinement) {
-            std::tie(fitting, shape) = *last_;
-        } else {
-            shape = solver(fitting).solve(start(fitting.confinement), area(wanted), volume()).configuration.shape;
-        }
-        const auto narrow = narrowed(shape, fitting, wanted);
-        if (!narrow) {
-            return std::nullopt;
-        }
-        return remembered(solver(wanted).solve(*narrow, area(wanted), volume()), wanted);
+    Meridian<double> start(SpheroidKind kind, const Case& c) const {
+        return shape_in_tube<double>(excess_area(c.reduced_volume), 1 / c.confinement, kind, settings_.elements);
     }
 
-    Found remembered(Solver::State state, const Case& wanted) {
-        Found found = refined(std::move(state), wanted);
-        last_.emplace(wanted, found.state.configuration.shape);
+    std::optional<Found> from_prolate(const Case& wanted) const {
+        return refined(solver(wanted).solve(start(SpheroidKind::prolate, wanted), area(wanted), volume()), wanted);
+    }
+
+    /// An oblate start that does not fit is solved in a wider tube, which then is narrowed; or the last case's state is
+    /// taken, if its tube was wider and the rest the same.
+    std::optional<Found> from_oblate(const Case& wanted) {
+        const double excess = excess_area(wanted.reduced_volume);
+        Case fitting = wanted;
+        const auto spheroid = spheroid_of_excess_area<double>(excess, SpheroidKind::oblate, settings_.elements);
+        fitting.confinement = std::min(wanted.confinement, 0.8 / spheroid.r.maxCoeff());
+        std::optional<Found> found;
+        if (fitting.confinement == wanted.confinement) {
+            found = refined(solver(wanted).solve(start(SpheroidKind::oblate, wanted), area(wanted), volume()), wanted);
+        } else if (oblate_ && oblate_->first.reduced_volume == wanted.reduced_volume &&
+                   oblate_->first.capillary_number == wanted.capillary_number &&
+                   oblate_->first.confinement < wanted.confinement) {
+            found = continued(oblate_->second, oblate_->first, wanted);
+        } else {
+            const auto state = solver(fitting).solve(start(SpheroidKind::oblate, fitting), area(wanted), volume());
+            found = continued(state.configuration.shape, fitting, wanted);
+        }
+        if (found) {
+            oblate_.emplace(wanted, found->state.configuration.shape);
+        }
         return found;
     }
 
-    /// Along the branch of states to the confinement wanted; none if the branch ends in a fold before.
-    std::optional<Meridian<double>> narrowed(const Meridian<double>& shape, const Case& from, const Case& to) const {
-        Branch branch([&](double confinement) { return scene_of(confinement, to.capillary_number); },
-                      [&](double) { return area(to); }, [](double) { return volume(); });
+    std::optional<Found> from_neighbour(const Case& wanted) const {
+        const auto known = parachutes_.find({wanted.confinement, wanted.capillary_number});
+        if (known == parachutes_.end()) {
+            return std::nullopt;
+        }
+        return continued(known->second.second, known->second.first, wanted);
+    }
+
+    /// Along the branch of states from one case to another; none if it ends in a fold before.
+    std::optional<Found> continued(const Meridian<double>& shape, const Case& from, const Case& to) const {
+        const auto at = [&](double t) {
+            return Case{from.confinement + t * (to.confinement - from.confinement),
+                        from.reduced_volume + t * (to.reduced_volume - from.reduced_volume), to.capillary_number};
+        };
+        const double change =
+            std::max({std::abs(to.confinement - from.confinement), std::abs(to.reduced_volume - from.reduced_volume)});
+        if (change == 0) {
+            return refined(solver(to).solve(shape, area(to), volume()), to);
+        }
+        Branch::Params derivatives;
+        derivatives.parameter_step /= change;
+        Branch branch([&](double t) { return scene_of(at(t).confinement, to.capillary_number); },
+                      [&](double t) { return area(at(t)); }, [](double) { return volume(); }, derivatives);
         ContinuationParams<double> params;
         params.tolerance = settings_.tolerance;
-        params.largest_parameter = to.confinement;
+        params.largest_parameter = 1;
+        params.parameter_scale = 1 / change;
         Continuation<Branch> path(branch, params);
         std::optional<Meridian<double>> last;
         bool folded = false;
-        const bool arrived =
-            path.follow(branch.at(from.confinement, shape), 1, [&](const Continuation<Branch>::Record& record) {
-                folded = record.event == BranchEvent::fold;
-                last = record.point.state.configuration.shape;
-                return !folded;
-            });
-        return arrived && !folded ? last : std::nullopt;
+        const bool arrived = path.follow(branch.at(0, shape), 1, [&](const Continuation<Branch>::Record& record) {
+            folded = record.event == BranchEvent::fold;
+            last = record.point.state.configuration.shape;
+            return !folded;
+        });
+        if (!arrived || folded) {
+            return std::nullopt;
+        }
+        return refined(solver(to).solve(*last, area(to), volume()), to);
     }
 
     /// With more modes until the shape is resolved, and its stability.
@@ -179,7 +213,8 @@ class Diagram {
     }
 
     Settings settings_;
-    std::optional<std::pair<Case, Meridian<double>>> last_;  // of the oblate start
+    std::optional<std::pair<Case, Meridian<double>>> oblate_;  // the last state of the oblate start
+    std::map<std::pair<double, double>, std::pair<Case, Meridian<double>>> parachutes_;  // by confinement and Ca
 };
 
 const char* const kHeader =
@@ -228,7 +263,7 @@ void write_shapes(const std::filesystem::path& directory, const Case& c, const s
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "Stationary vesicles in the tube flow u_z = Ca (1 - (L r)^2), from a prolate and an oblate start: one row for\n"
+        "Stationary vesicles in the tube flow u_z = Ca (1 - (L r)^2), from several starts: one row for\n"
         "each state of a case, written when it is known. Cases that the output has already are left out"};
     std::string input;
     std::string directory;
