@@ -13,7 +13,9 @@
 #include <axistokes/time/stationary_branch.hpp>
 #include <axistokes/time/stationary_solver.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -157,6 +159,22 @@ TEST_CASE("The parachute ends in a fold") {
     };
     CHECK(rear_curvature_at(0.98 * traced.fold) < -0.5);
     CHECK(rear_curvature_at(1.02 * traced.fold) > 0.5);
+
+    // The last state is one of the unstable branch: Newton finds it, but does not stay there unless it may.
+    const auto found = [&](bool only_stable) {
+        StationaryParams<double> params;
+        params.only_stable = only_stable;
+        Solver newton(scene(kConfinement, std::exp(traced.parameter)), params);
+        auto state = newton.solve(traced.shape, kArea, kVolume);
+        const double growth = newton.growth_rates(state).front().real();
+        return std::pair(state.instant.velocity, growth);
+    };
+    const auto [unstable_velocity, unstable_growth] = found(false);
+    CHECK(unstable_velocity == Approx(traced.velocity).epsilon(1e-7));
+    CHECK(unstable_growth == Approx(traced.growth_after).epsilon(0.02));
+    const auto [stable_velocity, stable_growth] = found(true);
+    CHECK(std::abs(stable_velocity / traced.velocity - 1) > 1e-4);
+    CHECK(stable_growth < 0);
 }
 
 }  // namespace

@@ -41,6 +41,8 @@ struct StationaryState {
     Configuration<S> configuration;
     InstantType instant;
     S residual{};
+    /// Leading growth rate by the last Jacobian, to a few per cent; NaN if none was needed, or only_stable is not set.
+    S growth = std::numeric_limits<S>::quiet_NaN();
     Index iterations = 0;
     Index evaluations = 0;         // with all modes
     Index jacobians = 0;           // likewise
@@ -186,11 +188,10 @@ requires(SceneType::deformable) class StationarySolver {
             jacobian = detail::velocity_jacobian(scene, point.frozen, point.configuration, point.instant,
                                                  linearisation.change.at_nodes(scene, point.velocity.size()));
             ++state.jacobians;
-            growth = 0;
             if (params_.only_stable) {
                 const auto& z = point.configuration.shape.z;
-                growth =
-                    std::max(growth, detail::growth_rates<Scalar>(point.frozen.surface, z, jacobian).front().real());
+                state.growth = detail::growth_rates<Scalar>(point.frozen.surface, z, jacobian).front().real();
+                growth = std::max(Scalar(0), state.growth);
             }
         };
         Scalar limit = params_.largest_displacement;
@@ -223,7 +224,9 @@ requires(SceneType::deformable) class StationarySolver {
                 const Vector<Scalar> missed = trial.velocity - point.velocity - jacobian * step;
                 jacobian += missed * step.transpose() / step.squaredNorm();
             }
-            if (usable && trial.residual <= params_.allowed_increase * point.residual) {
+            // An unstable state is left with a residual that grows tenfold in a step.
+            const Scalar increase = params_.allowed_increase * (growth > Scalar(0) ? Scalar(10) : Scalar(1));
+            if (usable && trial.residual <= increase * point.residual) {
                 // As long as the iteration converges well, what it has learned is cheaper than a new Jacobian.
                 const bool stale = moved || !(trial.residual < point.residual / params_.renewal);
                 const bool short_step = length < limit / 10;
