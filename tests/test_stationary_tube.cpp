@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace {
@@ -87,13 +88,13 @@ struct Traced {
     Meridian<double> shape;
 };
 
-Traced trace(SpheroidKind kind, double last) {
-    constexpr Index elements = 24;
+Traced trace(SpheroidKind kind, double last, bool print = false, Index elements = 24) {
     Solver newton(scene(kConfinement, 1));
     const auto start = newton.solve(shape_in_tube<double>(0.9, 1 / kConfinement, kind, elements), kArea, kVolume);
     Branch branch([](double log_ca) { return scene(kConfinement, std::exp(log_ca)); }, [](double) { return kArea; },
                   [](double) { return kVolume; });
     ContinuationParams<double> params;
+    params.least_parameter = std::log(0.5);
     params.largest_parameter = std::log(last);
     params.parameter_scale = 2;
     Path path(branch, params);
@@ -101,6 +102,13 @@ Traced trace(SpheroidKind kind, double last) {
     int after = 0;
     path.follow(branch.at(0, start.configuration.shape), 1, [&](const Path::Record& record) {
         const auto& state = record.point.state;
+        const double rear = record.point.scene->discretization().pole_curvatures(state.configuration.shape).first;
+        if (print) {
+            std::printf("%9.5f  %.7f  %9.5f  %8.5f  %8.4f  %.1e  %.1e%s\n", std::exp(record.parameter),
+                        state.instant.velocity / std::exp(record.parameter), record.growth, record.slope, rear,
+                        record.residual, record.point.scene->discretization().unresolved(state.configuration.shape),
+                        record.event == BranchEvent::fold ? "  fold" : "");
+        }
         traced.largest_residual = std::max(traced.largest_residual, record.residual);
         if (record.event == BranchEvent::fold) {
             ++traced.folds;
@@ -175,6 +183,12 @@ TEST_CASE("The parachute ends in a fold") {
     const auto [stable_velocity, stable_growth] = found(true);
     CHECK(std::abs(stable_velocity / traced.velocity - 1) > 1e-4);
     CHECK(stable_growth < 0);
+}
+
+TEST_CASE("Both branches, printed", "[.report]") {
+    std::printf("Ca  U/Ca  growth  slope  rear curvature  residual  unresolved\n");
+    CHECK(trace(SpheroidKind::prolate, 200, true, 32).folds == 0);
+    CHECK(trace(SpheroidKind::oblate, 200, true, 32).folds == 1);
 }
 
 }  // namespace
