@@ -125,9 +125,11 @@ def distance(a, b):
 @figure
 def sphere_drag(g):
     """Error of K against N."""
-    fig, axes = plt.subplots(1, 2, figsize=(9.5, 4.2), layout="constrained")
+    fig, axes = plt.subplots(1, 3, figsize=(13, 4.2), layout="constrained")
     counts = [16, 32, 64, 128, 256]
+    modes = [8, 12, 16, 24, 32, 48]
     rows = []
+    spectral_rows = []
     colors = plt.get_cmap("viridis")(np.linspace(0, 0.9, len(DRAG)))
     for (label, exact), color in zip(DRAG.items(), colors):
         k = []
@@ -141,21 +143,31 @@ def sphere_drag(g):
         order = np.log2(error[:-1] / error[1:])
         rows.append([label, f"{exact:.9g}"] + [f"{e:.1e}" for e in error] + [f"{order[0]:.2f}", f"{order[-1]:.2f}",
                     f"{extrapolated[-1]:.1e}", f"{np.log2(extrapolated[-2] / extrapolated[-1]):.2f}"])
+        k = []
+        for n in modes:
+            summary, _, _ = g.run(f"drag_{label.replace('/', '_')}_spectral_{n}", "sphere_in_tube", confinement=label,
+                                  elements=n, discretization="spectral", tolerance=1e-11)
+            k.append(summary["drag_factor"])
+        error = np.abs(np.array(k) / exact - 1)
+        axes[2].semilogy(modes, error, "o-", ms=4, color=color)
+        spectral_rows.append([label] + [f"{e:.1e}" for e in error])
     n = np.array(counts, dtype=float)
     axes[0].loglog(n, 3 / n**2, "k:", lw=1, label=r"$N^{-2}$")
     axes[0].loglog(n, 300 / n**3, "k--", lw=1, label=r"$N^{-3}$")
     axes[1].loglog(n[1:], 300 / n[1:]**3, "k--", lw=1, label=r"$N^{-3}$")
     axes[0].set_title("drag factor of a sphere: relative error")
     axes[1].set_title("extrapolated from N/2 and N: (4 K(N) - K(N/2))/3")
-    for a in axes:
+    axes[2].set_title("spectral meridian")
+    axes[2].set_xlabel("modes N")
+    for a in axes[:2]:
         a.set_xlabel("elements N")
         a.set_xticks(counts, [str(c) for c in counts])
         a.minorticks_off()
-    axes[0].legend(frameon=False, fontsize=7)
-    axes[1].legend(frameon=False, fontsize=7)
+        a.legend(frameon=False, fontsize=7)
     g.save(fig, "sphere_drag")
     print_table(["R0/Rc", "K"] + [f"error, N = {c}" for c in counts] +
                 ["order, first", "order, last", "extrapolated, 256", "its order"], rows)
+    print_table(["R0/Rc"] + [f"spectral, N = {n}" for n in modes], spectral_rows)
 
 
 @figure
@@ -230,7 +242,7 @@ def vesicle_in_tube(g):
 @figure
 def narrow_tube(g):
     """A vesicle like a red blood cell in a very narrow pore."""
-    refinement(g, "narrow_tube", r"$\Delta$ = 4.8, $R_c/R_0$ = 0.55, Ca = 100", (130, 200, 260), excess_area=4.8,
+    refinement(g, "narrow_tube", r"$\Delta$ = 4.8, $R_c/R_0$ = 0.55, Ca = 100", (130, 200), excess_area=4.8,
                confinement="1/0.55", capillary_number=100)
 
 

@@ -64,7 +64,7 @@ struct SimulationParams {
     S first_time_step = S(1e-3);
     S largest_time_step = S(1);
     S smallest_time_step = S(1e-9);
-    /// Error allowed in a step, in R0, for integrators that estimate it.
+    /// Error allowed in a step, in R0, for integrators that estimate it; never more than a tenth of the motion.
     S step_tolerance = S(1e-4);
     /// Largest normal displacement in a step, in R0, for the other ones.
     S largest_displacement = S(0.02);
@@ -74,6 +74,7 @@ struct SimulationParams {
     /// Growth of the automatic step from one step to the next, likewise.
     S growth = S(1.3);
     Index most_steps = 20000;
+    /// The last step of the automatic ones ends there.
     S longest_time = std::numeric_limits<S>::max();
 };
 
@@ -162,6 +163,9 @@ class Simulator {
     /// One time step. Throws SimulationFailure, leaving the state as it was.
     const Record& step() {
         Index rejected = 0;
+        if (!params_.time_step && time_ < params_.longest_time) {
+            dt_ = std::min(dt_, Scalar(params_.longest_time - time_));
+        }
         for (;;) {
             std::string cause;
             if (auto attempt = try_step(cause)) {
@@ -210,11 +214,26 @@ class Simulator {
         { integrator.step(scene, start, dt).error } -> std::convertible_to<Scalar>;
     };
 
+    /// The error may be `step_tolerance`, and a tenth of the membrane's motion: close to a stationary state steps at
+    /// the limit of stability would otherwise keep it in motion for ever.
+    Scalar allowed_error(const Scalar& motion) const {
+        if constexpr (Membrane::deformable) {
+            const Scalar rounding = 1000 * std::numeric_limits<Scalar>::epsilon();
+            return std::min(params_.step_tolerance, std::max(Scalar(motion / 10), rounding));
+        } else {
+            return params_.step_tolerance;
+        }
+    }
+
     /// From a step to the longest one that should meet the tolerance: the estimate, the error of the order below, grows
-    /// like dt^order.
-    Scalar step_factor(const Scalar& error) const {
+    /// like dt^order, and its ratio to the motion like dt^(order - 1).
+    Scalar step_factor(const Scalar& error, const Scalar& motion) const {
         using std::pow;
-        const Scalar wanted = pow(params_.step_tolerance / error, Scalar(1) / Scalar(Integrator::order));
+        Scalar wanted = pow(params_.step_tolerance / error, Scalar(1) / Scalar(Integrator::order));
+        const Scalar allowed = allowed_error(motion);
+        if (Integrator::order > 1 && allowed < params_.step_tolerance) {
+            wanted = std::min(wanted, Scalar(pow(allowed / error, Scalar(1) / Scalar(Integrator::order - 1))));
+        }
         // NaN and infinite errors end up at the lower bound.
         return wanted > Scalar(0.2) ? std::min(Scalar(Scalar(0.9) * wanted), Scalar(3)) : Scalar(0.2);
     }
@@ -256,9 +275,10 @@ class Simulator {
         record.velocity = step->instant.velocity;
         if constexpr (estimates_error) {
             record.step_error = step->error;
-            if (!params_.time_step && !(step->error <= params_.step_tolerance)) {
+            const Scalar motion = step->instant.deformation_rate * dt_;
+            if (!params_.time_step && !(step->error <= allowed_error(motion))) {
                 cause = "the step's error is " + text(step->error) + " R0";
-                retry_ = dt_ * std::min(Scalar(0.5), step_factor(step->error));
+                retry_ = dt_ * std::min(Scalar(0.5), step_factor(step->error, motion));
                 return std::nullopt;
             }
         }
@@ -302,14 +322,15 @@ class Simulator {
         const Measures<Scalar> raw = discretization.measures(shape);
         record.area_error = raw.area / area_ - 1;
         record.volume_error = raw.volume / volume_ - 1;
-        bool restored = discretization.restore(shape, area_, volume_);
-        record.redistributed = discretization.redistribute(shape);
-        if (record.redistributed) {
-            restored = restored && discretization.restore(shape, area_, volume_);
-        }
-        if (!restored) {
+        if (!discretization.restore(shape, area_, volume_)) {
             cause = "area and volume drifted by " + text(record.area_error) + " and " + text(record.volume_error) +
                     " and could not be restored";
+            return false;
+        }
+        record.redistributed = discretization.redistribute(shape);
+        if (record.redistributed && !discretization.restore(shape, area_, volume_)) {
+            cause = "area and volume could not be restored after the nodes were moved along the membrane, for which " +
+                    std::to_string(shape.nodes()) + " of them are too few";
             return false;
         }
         return usable(shape, cause);
@@ -349,7 +370,7 @@ class Simulator {
         next.shape.z.array() -= measures.centroid;
         next.position += measures.centroid;
         record.step = static_cast<Index>(history_.size()) + 1;
-        record.time = time_ + dt_;
+        record.time = dt_ == params_.longest_time - time_ ? params_.longest_time : Scalar(time_ + dt_);
         record.dt = dt_;
         record.position = next.position;
         record.length = next.shape.z[next.shape.nodes() - 1] - next.shape.z[0];
@@ -379,8 +400,8 @@ class Simulator {
             return;
         }
         if constexpr (estimates_error) {
-            dt_ *= attempt.record.rejected > 0 ? std::min(Scalar(1), step_factor(attempt.record.step_error))
-                                               : step_factor(attempt.record.step_error);
+            const Scalar factor = step_factor(attempt.record.step_error, rate * dt_);
+            dt_ *= attempt.record.rejected > 0 ? std::min(Scalar(1), factor) : factor;
         } else {
             if (reversed) {
                 dt_ /= 2;

@@ -35,10 +35,11 @@ bool restore_area_and_volume(Meridian<S>& meridian, const S& area, const S& volu
         Eigen::Matrix<S, 2, 2> jacobian;
         jacobian << 2 * total_curvature / area, 2 * squared_curvature / area, now.area / volume,
             total_curvature / volume;
-        Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<S, 2, 2>> decomposition;
+        // Of fixed size, in float, it makes g++ 12 warn inside Eigen.
+        Eigen::CompleteOrthogonalDecomposition<Matrix<S>> decomposition;
         decomposition.setThreshold(S(1e-5));
         decomposition.compute(jacobian);
-        const Eigen::Matrix<S, 2, 1> change = decomposition.solve(defect);
+        const Eigen::Matrix<S, 2, 1> change = decomposition.solve(Vector<S>(defect));
         if (decomposition.rank() < 2 && change.cwiseAbs().maxCoeff() < tolerance) {
             return true;
         }

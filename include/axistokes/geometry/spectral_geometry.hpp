@@ -194,10 +194,11 @@ class SpectralGeometry {
             const S total = da.dot(fine_h);
             Eigen::Matrix<S, 2, 2> jacobian;
             jacobian << 2 * total / area, 2 * da.dot(fine_h.cwiseAbs2()) / area, now.area / volume, total / volume;
-            Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<S, 2, 2>> decomposition;
+            // Of fixed size, in float, it makes g++ 12 warn inside Eigen.
+            Eigen::CompleteOrthogonalDecomposition<Matrix<S>> decomposition;
             decomposition.setThreshold(S(1e-5));
             decomposition.compute(jacobian);
-            const Eigen::Matrix<S, 2, 1> change = decomposition.solve(defect);
+            const Eigen::Matrix<S, 2, 1> change = decomposition.solve(Vector<S>(defect));
             if (decomposition.rank() < 2 && change.cwiseAbs().maxCoeff() < tolerance) {
                 return true;
             }

@@ -5,7 +5,8 @@
 // The zz integrand behaves like -8 log(zeta) at 0 for all points: 8 K0(zeta Rc) is subtracted and its transform,
 // 4 pi/sqrt(Rc^2 + zh^2), added (DLMF 10.43.21). The wave numbers are divided into four zones: [0, 1e-5/Rc] by
 // Gauss-Legendre; two zones by Filon's rule, up to 2/Rc and up to where the integrand has decayed; the rest by
-// Gauss-Laguerre. The points of Filon's rules are doubled until the result changes by less than the tolerance.
+// Gauss-Laguerre. The points of Filon's rules are doubled until the result changes by less than the tolerance twice in
+// a row: one small change, of an oscillating integrand on few points, may be an accident.
 #pragma once
 
 #include "../quadrature/filon.hpp"
@@ -133,7 +134,8 @@ class TubeFilonKernel : public TubeKernel<S> {
         }
         sample(intervals, 0, 1);
         Values result = integrate(f, a, b, k);
-        while (2 * intervals < most_points_) {
+        int small_changes = 0;
+        while (small_changes < 2 && 2 * intervals < most_points_) {
             intervals *= 2;
             for (std::vector<S>& entry : f) {
                 std::vector<S> finer(static_cast<std::size_t>(intervals) + 1);
@@ -149,9 +151,7 @@ class TubeFilonKernel : public TubeKernel<S> {
                 change = std::max<S>(change, abs(better[e] - result[e]));
             }
             result = better;
-            if (change < this->params().tolerance) {
-                break;
-            }
+            small_changes = change < this->params().tolerance ? small_changes + 1 : 0;
         }
         return result;
     }

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+#include "scalar_types.hpp"
+
+template std::vector<scalar_types::Result> scalar_types::results<double>();
