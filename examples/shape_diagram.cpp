@@ -88,10 +88,11 @@ class Diagram {
         if (found.size() < 2) {
             attempt("neighbour", [&] { return from_neighbour(wanted); });
         }
+        const std::pair column(wanted.confinement, wanted.capillary_number);
+        parachutes_.erase(column);  // one attempt: further away there is less hope
         for (const Found& f : found) {
-            if (is_parachute(f)) {
-                parachutes_.insert_or_assign({wanted.confinement, wanted.capillary_number},
-                                             std::pair(wanted, f.state.configuration.shape));
+            if (is_parachute(f) && f.growth < 0) {
+                parachutes_.insert_or_assign(column, std::pair(wanted, f.state.configuration.shape));
             }
         }
         return {std::move(found), std::move(failure)};

@@ -133,8 +133,9 @@ class Continuation {
             const bool change = (now.growth > Scalar(0)) != (next->growth > Scalar(0));
             if (fold || change) {
                 const auto kind = fold ? BranchEvent::fold : BranchEvent::stability_change;
+                // Where it cannot be located it is at least reported, at the point behind it.
                 const auto event = located(now, *next, step, kind);
-                if (event && !observe(record(*event, kind))) {
+                if (!observe(record(event ? *event : *next, kind))) {
                     return false;
                 }
             }
