@@ -229,7 +229,7 @@ std::string rows(const Case& c, const std::vector<Found>& found, const std::stri
     out.precision(10);
     const std::string cause = examples::quoted(failure);
     if (found.empty()) {
-        out << examples::key(c) << ",0,,,,,,,,,,,,,,,,," << cause << '\n';
+        out << examples::key(c) << ",0,,,,,,,,,,,,,,,," << cause << '\n';
     }
     const SpectralMeridian<double> discretization;
     for (const Found& f : found) {

@@ -224,8 +224,9 @@ requires(SceneType::deformable) class StationarySolver {
                 const Vector<Scalar> missed = trial.velocity - point.velocity - jacobian * step;
                 jacobian += missed * step.transpose() / step.squaredNorm();
             }
-            // An unstable state is left with a residual that grows tenfold in a step.
-            const Scalar increase = params_.allowed_increase * (growth > Scalar(0) ? Scalar(10) : Scalar(1));
+            // An unstable state near by is left with a residual that grows tenfold in a step.
+            const bool leaving = growth > Scalar(0) && 2 * length < limit;
+            const Scalar increase = params_.allowed_increase * Scalar(leaving ? 10 : 1);
             if (usable && trial.residual <= increase * point.residual) {
                 // As long as the iteration converges well, what it has learned is cheaper than a new Jacobian.
                 const bool stale = moved || !(trial.residual < point.residual / params_.renewal);
