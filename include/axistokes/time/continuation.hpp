@@ -5,12 +5,12 @@
 #pragma once
 
 #include "../core.hpp"
-#include "../geometry/meridian.hpp"
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <optional>
 #include <sstream>

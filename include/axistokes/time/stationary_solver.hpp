@@ -89,7 +89,7 @@ requires(SceneType::deformable) class StationarySolver {
                 try {
                     const auto& resample = scene_.discretization();
                     State coarse;
-                    iterate(coarse_, resample.resampled(shape, half), area, volume, coarse_tolerance, linearisation,
+                    iterate(coarse_, resample.resampled(shape, half), area, volume, coarse_tolerance(), linearisation,
                             coarse);
                     state.coarse_evaluations = coarse.evaluations;
                     state.coarse_jacobians = coarse.jacobians;
@@ -141,12 +141,12 @@ requires(SceneType::deformable) class StationarySolver {
 
     /// Least degree and residual of a solution that is a first guess.
     static constexpr Index least_degree = 12;
-    static constexpr Scalar coarse_tolerance = Scalar(1e-4);
+    static Scalar coarse_tolerance() { return Scalar(1e-4); }
     /// Degrees of the meridian on which the mobility's change is found: at first, and how far it may be raised.
     static constexpr Index coarsest_change = 12;
     static constexpr Index finest_change = 24;
     /// Displacement after which the mobility's change is found again, in R0.
-    static constexpr Scalar stale_change = Scalar(0.1);
+    static Scalar stale_change() { return Scalar(0.1); }
 
     struct Linearisation {
         detail::MobilityChange<SceneType> change;
@@ -180,7 +180,7 @@ requires(SceneType::deformable) class StationarySolver {
         Matrix<Scalar> jacobian;
         Scalar growth = 0;
         const auto renew = [&](Index degree) {
-            if (linearisation.travelled > stale_change || degree > linearisation.change.degree()) {
+            if (linearisation.travelled > stale_change() || degree > linearisation.change.degree()) {
                 find(linearisation.change, point.configuration, point.instant, degree);
                 linearisation.travelled = 0;
                 ++state.mobility_changes;
@@ -232,9 +232,9 @@ requires(SceneType::deformable) class StationarySolver {
                 const bool stale = moved || !(trial.residual < point.residual / params_.renewal);
                 const bool short_step = length < limit / 10;
                 point = std::move(trial);
-                linearisation.travelled += length + (moved ? stale_change / 2 : Scalar(0));
+                linearisation.travelled += length + (moved ? stale_change() / 2 : Scalar(0));
                 if (stale && !(point.residual < tolerance)) {
-                    if (short_step && linearisation.travelled < stale_change) {
+                    if (short_step && linearisation.travelled < stale_change()) {
                         degree = std::min(degree + 6, finest_change);
                     }
                     renew(degree);

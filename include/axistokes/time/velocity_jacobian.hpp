@@ -10,6 +10,8 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace axistokes::detail {
 
