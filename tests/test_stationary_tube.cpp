@@ -125,7 +125,7 @@ Traced trace(SpheroidKind kind, double last, bool print = false, Index elements 
         traced.parameter = record.parameter;
         traced.velocity = state.instant.velocity;
         traced.shape = state.configuration.shape;
-        traced.rear_curvature = record.point.scene->discretization().pole_curvatures(state.configuration.shape).first;
+        traced.rear_curvature = rear;
         return after < 3;
     });
     return traced;
