@@ -54,6 +54,13 @@ class SpectralMeridian : public SpectralGeometry<S> {
 
     const Params& params() const { return params_; }
 
+    /// The same with integrals as coarse as `tolerance`, or as coarse as they are.
+    SpectralMeridian loosened(const S& tolerance) const {
+        Params params = params_;
+        params.tolerance = std::max(params.tolerance, tolerance);
+        return SpectralMeridian(std::move(params));
+    }
+
     Surface surface(const Meridian<S>& meridian) const { return spectral_surface(meridian); }
 
     /// u = G f for targets at the nodes: G is 2n x 2n, f and u are stacked [r; z]; f is a force density (kappa/R0^3), u

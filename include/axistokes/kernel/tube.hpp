@@ -13,6 +13,7 @@
 #include "free_space.hpp"
 #include "tube_spectrum.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -56,6 +57,13 @@ class TubeKernel : public FreeSpaceKernel<S> {
 
     const S& tube_radius() const { return tube_radius_; }
     const Params& params() const { return params_; }
+
+    /// The same with the error `tolerance`, or the present one if that is larger.
+    TubeKernel loosened(const S& tolerance) const {
+        Params params = params_;
+        params.tolerance = std::max(params.tolerance, tolerance);
+        return TubeKernel(tube_radius_, params);
+    }
 
     /// The wall's correction M_c(target, source), for probing: the batch below is much faster per pair.
     /// Throws InvalidArgument for a point with r < 0, r > Rc, or when both are on the wall.

@@ -55,7 +55,15 @@ class Vesicle {
     /// Bending and tension force density on `surface`, stacked.
     template <class Surface>
     static Vector<S> force(const Surface& surface, const Vector<S>& tension) {
-        return bending_operator(surface) * surface.positions() + surface.tension_force * tension;
+        // As bending_operator, without products of matrices.
+        const auto& h = surface.mean_curvature;
+        const Vector<S> curvature = surface.mean_curvature_of * surface.positions();
+        const Vector<S> scalar = S(2) * (surface.laplacian * curvature) +
+                                 4 * (h.cwiseAbs2() - surface.gauss_curvature).cwiseProduct(curvature);
+        Vector<S> force = surface.tension_force * tension;
+        force.head(surface.size()) += surface.normal_r.cwiseProduct(scalar);
+        force.tail(surface.size()) += surface.normal_z.cwiseProduct(scalar);
+        return force;
     }
 
     /// Velocities, forces and tension of a vesicle. The unknowns are (u, gamma) of

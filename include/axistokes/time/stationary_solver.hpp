@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Stationary shapes, their velocity and tension by a quasi-Newton method, and their linear stability
-// (docs/stationary.md).
+// Stationary shapes, their velocity and tension by Newton's method, and their linear stability (docs/stationary.md).
 //
 // Unknowns: normal displacements phi of the nodes. Equations: the normal velocity relative to the centroid vanishes,
-// w(x) = 0, with area, volume and axial position given. The Jacobian is the one of frozen_jacobian.hpp, corrected by
-// what the iterations show to be missing (Broyden 1965).
+// w(x) = 0, with area, volume and axial position given. The Jacobian J is that of velocity_jacobian.hpp, corrected by
+// what the iterations show to be missing (Broyden 1965). Far from the solution a step is one of the linearly implicit
+// Euler method, (1/dt - J) phi = w, with the longest dt that keeps the displacement within bounds.
 #pragma once
 
-#include "frozen_jacobian.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "stationary_equations.hpp"
 
 #include <algorithm>
 #include <complex>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -30,6 +28,12 @@ struct StationaryParams {
     S largest_displacement = S(0.1);
     /// A trial may increase the residual by this factor.
     S allowed_increase = S(2);
+    /// The Jacobian is renewed when an iteration reduces the residual by less than this factor, > 1.
+    S renewal = S(5);
+    /// Keep off states that are unstable against axisymmetric disturbances, as time marching does.
+    bool only_stable = true;
+    /// Solve with half the modes first (discretisations that can be resampled).
+    bool coarse_start = true;
 };
 
 template <class S, class InstantType>
@@ -37,8 +41,14 @@ struct StationaryState {
     Configuration<S> configuration;
     InstantType instant;
     S residual{};
+    /// Leading growth rate by the last Jacobian, to a few per cent; NaN if none was needed, or only_stable is not set.
+    S growth = std::numeric_limits<S>::quiet_NaN();
     Index iterations = 0;
-    Index evaluations = 0;
+    Index evaluations = 0;         // with all modes
+    Index jacobians = 0;           // likewise
+    Index coarse_evaluations = 0;  // with half of the modes, or fewer
+    Index coarse_jacobians = 0;
+    Index mobility_changes = 0;  // coarse linearisations of the single layer
 };
 
 /// Finds and examines stationary states of a scene with a deformable membrane.
@@ -52,7 +62,8 @@ requires(SceneType::deformable) class StationarySolver {
     using Params = StationaryParams<Scalar>;
 
     /// Throws InvalidArgument when a parameter is out of range.
-    explicit StationarySolver(SceneType scene, Params params = {}) : scene_(std::move(scene)), params_(params) {
+    explicit StationarySolver(SceneType scene, Params params = {})
+        : scene_(std::move(scene)), coarse_(detail::loosened_scene(scene_, Scalar(1e-4))), params_(params) {
         detail::require(params.tolerance > Scalar(0) && params.tolerance < Scalar(1), "stationarity tolerance",
                         params.tolerance, "in (0, 1)");
         detail::require(params.most_iterations >= 1, "number of iterations", params.most_iterations, "at least 1");
@@ -60,59 +71,173 @@ requires(SceneType::deformable) class StationarySolver {
                         "> 0");
         detail::require(params.allowed_increase >= Scalar(1), "allowed increase", params.allowed_increase,
                         "at least 1");
+        detail::require(params.renewal > Scalar(1), "renewal of the Jacobian", params.renewal, "> 1");
     }
 
     const SceneType& scene() const { return scene_; }
+    const Params& params() const { return params_; }
 
     /// The stationary state near `shape`, of the given area and volume. Throws SimulationFailure with the cause when
     /// the iteration does not converge; then start closer, from a few time steps or a neighbouring solution.
     State solve(const Meridian<Scalar>& shape, const Scalar& area, const Scalar& volume) {
         validate(shape);
+        State state;
+        Linearisation linearisation;
+        if constexpr (detail::Resampling<SceneType>) {
+            const Index half = shape.elements() / 2;
+            if (params_.coarse_start && half >= least_degree) {
+                try {
+                    const auto& resample = scene_.discretization();
+                    State coarse;
+                    iterate(coarse_, resample.resampled(shape, half), area, volume, coarse_tolerance(), linearisation,
+                            coarse);
+                    state.coarse_evaluations = coarse.evaluations;
+                    state.coarse_jacobians = coarse.jacobians;
+                    state.mobility_changes = coarse.mobility_changes;
+                    iterate(scene_, resample.resampled(coarse.configuration.shape, shape.elements()), area, volume,
+                            params_.tolerance, linearisation, state);
+                    return state;
+                } catch (const SimulationFailure&) {
+                    // Half of the modes may not resolve the shape.
+                    linearisation = {};
+                }
+            }
+        }
+        iterate(scene_, shape, area, volume, params_.tolerance, linearisation, state);
+        return state;
+    }
+
+    /// Growth rates of small axisymmetric disturbances that keep area, volume and the centroid, largest real part
+    /// first: the eigenvalues of dw/dphi on these disturbances. The state is stable if all are negative.
+    std::vector<std::complex<Scalar>> growth_rates(const State& state) {
+        if constexpr (detail::Resampling<SceneType>) {
+            const auto frozen = scene_.freeze(state.configuration);
+            detail::MobilityChange<SceneType> change;
+            find(change, state.configuration, state.instant, finest_change);
+            return detail::growth_rates<Scalar>(
+                state.instant.surface, state.configuration.shape.z,
+                detail::velocity_jacobian(scene_, frozen, state.configuration, state.instant,
+                                          change.at_nodes(scene_, state.instant.surface.size())));
+        } else {
+            return growth_rates(state, Scalar(1e-5));
+        }
+    }
+
+    /// The same by central differences of the full equations: twice as many evaluations as nodes.
+    std::vector<std::complex<Scalar>> growth_rates(const State& state, const Scalar& step) {
+        const auto& surface = state.instant.surface;
+        const Index n = surface.size();
+        Matrix<Scalar> jacobian(n, n);
+        for (Index j = 0; j < n; ++j) {
+            jacobian.col(j) = (disturbed(state, step * Vector<Scalar>::Unit(n, j)) -
+                               disturbed(state, -step * Vector<Scalar>::Unit(n, j))) /
+                              (2 * step);
+        }
+        return detail::growth_rates<Scalar>(surface, state.configuration.shape.z, jacobian);
+    }
+
+  private:
+    using Point = detail::StationaryPoint<SceneType>;
+
+    /// Least degree and residual of a solution that is a first guess.
+    static constexpr Index least_degree = 12;
+    static Scalar coarse_tolerance() { return Scalar(1e-4); }
+    /// Degrees of the meridian on which the mobility's change is found: at first, and how far it may be raised.
+    static constexpr Index coarsest_change = 12;
+    static constexpr Index finest_change = 24;
+    /// Displacement after which the mobility's change is found again, in R0.
+    static Scalar stale_change() { return Scalar(0.1); }
+
+    struct Linearisation {
+        detail::MobilityChange<SceneType> change;
+        Scalar travelled = std::numeric_limits<Scalar>::max();  // since then, in R0
+    };
+
+    static std::string text(const Scalar& value) {
+        std::ostringstream out;
+        out << value;
+        return out.str();
+    }
+
+    void find(detail::MobilityChange<SceneType>& change, const Configuration<Scalar>& configuration,
+              const InstantType& instant, Index degree) {
+        const Index used = std::min(degree, configuration.shape.elements());
+        change.find(coarse_, configuration, instant.solution.force, used, (3 * used) / 4);
+    }
+
+    /// From `shape` to the stationary state of `scene`; counts what it takes, also when it fails.
+    void iterate(SceneType& scene, const Meridian<Scalar>& shape, const Scalar& area, const Scalar& volume,
+                 const Scalar& tolerance, Linearisation& linearisation, State& state) {
         Point point;
         point.configuration.shape = shape;
-        if (!settle(point.configuration, area, volume)) {
+        scene.discretization().redistribute(point.configuration.shape);
+        if (!detail::settle(scene, point.configuration, area, volume)) {
             throw SimulationFailure("stationary state: the first shape cannot be given the area " + text(area) +
                                     " and the volume " + text(volume));
         }
-        evaluate(point);
-        State state;
-        state.evaluations = 1;
-        const Index n = shape.nodes();
-        Matrix<Scalar> learned = Matrix<Scalar>::Zero(n, n);
+        detail::evaluate(scene, point);
+        ++state.evaluations;
+        Matrix<Scalar> jacobian;
+        Scalar growth = 0;
+        const auto renew = [&](Index degree) {
+            if (linearisation.travelled > stale_change() || degree > linearisation.change.degree()) {
+                find(linearisation.change, point.configuration, point.instant, degree);
+                linearisation.travelled = 0;
+                ++state.mobility_changes;
+            }
+            jacobian = detail::velocity_jacobian(scene, point.frozen, point.configuration, point.instant,
+                                                 linearisation.change.at_nodes(scene, point.velocity.size()));
+            ++state.jacobians;
+            if (params_.only_stable) {
+                const auto& z = point.configuration.shape.z;
+                state.growth = detail::growth_rates<Scalar>(point.frozen.surface, z, jacobian).front().real();
+                growth = std::max(Scalar(0), state.growth);
+            }
+        };
         Scalar limit = params_.largest_displacement;
-        Matrix<Scalar> frozen = detail::frozen_jacobian(scene_, point.frozen, point.configuration, point.instant);
-        while (!(point.residual < params_.tolerance)) {
-            if (++state.iterations > params_.most_iterations) {
+        Index degree = std::max(coarsest_change, linearisation.change.degree());
+        for (Index iteration = 1; !(point.residual < tolerance); ++iteration) {
+            if (iteration > params_.most_iterations) {
                 throw SimulationFailure("stationary state: the residual is " + text(point.residual) + " after " +
                                         std::to_string(params_.most_iterations) + " iterations");
             }
-            const Matrix<Scalar> jacobian = frozen + learned;
-            Vector<Scalar> step = newton_step(point, jacobian);
+            ++state.iterations;
+            if (jacobian.size() == 0) {
+                renew(degree);
+            }
+            const Vector<Scalar> step = bounded_step(point, jacobian, Scalar(1.1) * growth, limit);
             const Scalar length = step.cwiseAbs().maxCoeff();
             if (!(length < std::numeric_limits<Scalar>::max())) {
                 throw SimulationFailure("stationary state: the linearised equations are singular");
             }
-            step *= std::min(Scalar(1), Scalar(limit / length));
             Point trial;
             trial.configuration = point.configuration;
             detail::displace<Scalar>(trial.configuration.shape, point.frozen.surface, step);
-            const bool usable = settle(trial.configuration, area, volume);
+            const bool usable = detail::settle(scene, trial.configuration, area, volume);
             bool moved = false;
             if (usable) {
-                moved = scene_.discretization().redistribute(trial.configuration.shape);
-                evaluate(trial);
+                moved = scene.discretization().redistribute(trial.configuration.shape);
+                detail::evaluate(scene, trial);
                 ++state.evaluations;
             }
             if (usable && !moved) {
                 const Vector<Scalar> missed = trial.velocity - point.velocity - jacobian * step;
-                learned += missed * step.transpose() / step.squaredNorm();
+                jacobian += missed * step.transpose() / step.squaredNorm();
             }
-            if (usable && trial.residual <= params_.allowed_increase * point.residual) {
+            // An unstable state near by is left with a residual that grows tenfold in a step.
+            const bool leaving = growth > Scalar(0) && 2 * length < limit;
+            const Scalar increase = params_.allowed_increase * Scalar(leaving ? 10 : 1);
+            if (usable && trial.residual <= increase * point.residual) {
                 // As long as the iteration converges well, what it has learned is cheaper than a new Jacobian.
-                const bool renew = moved || !(trial.residual < point.residual / 3);
+                const bool stale = moved || !(trial.residual < point.residual / params_.renewal);
+                const bool short_step = length < limit / 10;
                 point = std::move(trial);
-                if (renew) {
-                    frozen = detail::frozen_jacobian(scene_, point.frozen, point.configuration, point.instant);
+                linearisation.travelled += length + (moved ? stale_change() / 2 : Scalar(0));
+                if (stale && !(point.residual < tolerance)) {
+                    if (short_step && linearisation.travelled < stale_change()) {
+                        degree = std::min(degree + 6, finest_change);
+                    }
+                    renew(degree);
                 }
                 limit = std::min(params_.largest_displacement, Scalar(2 * limit));
             } else {
@@ -126,106 +251,50 @@ requires(SceneType::deformable) class StationarySolver {
         state.configuration.tension = point.instant.solution.tension;
         state.instant = std::move(point.instant);
         state.residual = point.residual;
-        return state;
-    }
-
-    /// Growth rates of small axisymmetric disturbances that keep area, volume and the centroid, largest real part
-    /// first: the eigenvalues of dw/dphi (central differences of the full equations, twice as many evaluations as
-    /// nodes) on these disturbances. The state is stable if all are negative.
-    std::vector<std::complex<Scalar>> growth_rates(const State& state, const Scalar& step = Scalar(1e-5)) {
-        const auto& surface = state.instant.surface;
-        const Index n = surface.size();
-        Matrix<Scalar> jacobian(n, n);
-        for (Index j = 0; j < n; ++j) {
-            jacobian.col(j) = (disturbed(state, step * Vector<Scalar>::Unit(n, j)) -
-                               disturbed(state, -step * Vector<Scalar>::Unit(n, j))) /
-                              (2 * step);
-        }
-        const auto [gradients, corrections] = constraints(surface, state.configuration);
-        const Matrix<Scalar> basis =
-            Matrix<Scalar>(Matrix<Scalar>(gradients.transpose()).householderQr().householderQ()).rightCols(n - 3);
-        const Matrix<Scalar> kept =
-            jacobian - corrections * (gradients * corrections).partialPivLu().solve(gradients * jacobian);
-        const Matrix<Scalar> reduced = basis.transpose() * kept * basis;
-        const Vector<std::complex<Scalar>> values = reduced.eigenvalues();
-        std::vector<std::complex<Scalar>> rates(values.data(), values.data() + values.size());
-        std::sort(rates.begin(), rates.end(), [](const auto& a, const auto& b) { return a.real() > b.real(); });
-        return rates;
-    }
-
-  private:
-    struct Point {
-        Configuration<Scalar> configuration;
-        Frozen frozen;
-        InstantType instant;
-        Vector<Scalar> velocity;
-        Scalar residual{};
-    };
-
-    static std::string text(const Scalar& value) {
-        std::ostringstream out;
-        out << value;
-        return out.str();
-    }
-
-    void evaluate(Point& point) {
-        point.frozen = scene_.freeze(point.configuration);
-        point.instant = scene_.evaluate(point.frozen, point.configuration, Scalar(0));
-        point.velocity = detail::relative_normal_velocity(point.instant);
-        point.residual = point.instant.deformation_rate / std::max(Scalar(1), scene_.velocity_scale());
     }
 
     Vector<Scalar> disturbed(const State& state, const Vector<Scalar>& displacement) {
         Configuration<Scalar> moved = state.configuration;
         detail::displace<Scalar>(moved.shape, state.instant.surface, displacement);
-        return detail::relative_normal_velocity(scene_.evaluate(moved, Scalar(0)));
+        const auto instant = scene_.evaluate(moved, Scalar(0));
+        return detail::relative_normal_velocity<Scalar>(instant.surface, moved.shape.z, instant.solution.velocity)
+            .second;
     }
 
-    /// Restores area and volume and puts the centroid at 0; false if the shape is unusable.
-    bool settle(Configuration<Scalar>& configuration, const Scalar& area, const Scalar& volume) const {
-        Meridian<Scalar>& shape = configuration.shape;
-        const auto proper = [&] {
-            return shape.r.allFinite() && shape.z.allFinite() &&
-                   shape.r.segment(1, shape.nodes() - 2).minCoeff() > Scalar(0) && !self_intersection(shape) &&
-                   scene_.film_thickness(configuration).min > Scalar(0);
-        };
-        if (!proper() || !scene_.discretization().restore(shape, area, volume) || !proper()) {
-            return false;
-        }
-        shape.z.array() -= scene_.discretization().measures(shape).centroid;
-        return true;
-    }
-
-    /// Rows: the change of volume, area and centroid by a normal displacement (phi, 2 H phi and z phi integrated).
-    /// Columns: the displacements n, H n and the translation that correct them.
-    template <class Surface>
-    static std::pair<Matrix<Scalar>, Matrix<Scalar>> constraints(const Surface& surface,
-                                                                 const Configuration<Scalar>& configuration) {
-        const Index n = surface.size();
-        Matrix<Scalar> gradients(3, n);
-        gradients.row(0) = surface.weight.transpose();
-        gradients.row(1) = 2 * surface.weight.cwiseProduct(surface.mean_curvature).transpose();
-        gradients.row(2) = surface.weight.cwiseProduct(configuration.shape.z).transpose();
-        Matrix<Scalar> corrections(n, 3);
-        corrections << Vector<Scalar>::Ones(n), surface.mean_curvature, surface.normal_z;
-        return {std::move(gradients), std::move(corrections)};
-    }
-
-    /// J phi + (a + b H + c n_z) = -w with the three constraints' changes zero. The multipliers vanish with w: they
-    /// take up what is left of w's three exact dependencies.
-    static Vector<Scalar> newton_step(const Point& point, const Matrix<Scalar>& jacobian) {
-        const Index n = jacobian.rows();
-        const auto [gradients, corrections] = constraints(point.frozen.surface, point.configuration);
-        Matrix<Scalar> system = Matrix<Scalar>::Zero(n + 3, n + 3);
-        system.topLeftCorner(n, n) = jacobian;
-        system.topRightCorner(n, 3) = corrections;
-        system.bottomLeftCorner(3, n) = gradients;
+    /// (J - s) phi = -w with the constraints' changes zero.
+    static Vector<Scalar> newton_step(const Point& point, Matrix<Scalar> system, const Scalar& shift) {
+        const Index n = point.velocity.size();
+        system.diagonal().head(n).array() -= shift;
         Vector<Scalar> rhs = Vector<Scalar>::Zero(n + 3);
         rhs.head(n) = -point.velocity;
         return system.partialPivLu().solve(rhs).head(n);
     }
 
+    /// The step with the least shift, from `least` on, whose displacements keep to the limit.
+    static Vector<Scalar> bounded_step(const Point& point, const Matrix<Scalar>& jacobian, const Scalar& least,
+                                       const Scalar& limit) {
+        using std::sqrt;
+        const Matrix<Scalar> system =
+            detail::bordered<Scalar>(point.frozen.surface, point.configuration.shape.z, jacobian);
+        Vector<Scalar> step = newton_step(point, system, least);
+        if (step.cwiseAbs().maxCoeff() <= limit) {
+            return step;
+        }
+        // Without elasticity the displacement is w/s.
+        Scalar high = least + point.velocity.cwiseAbs().maxCoeff() / limit;
+        Scalar low = least + (high - least) / Scalar(4096);
+        for (int k = 0; k < 5; ++k) {
+            const Scalar middle = least + sqrt((low - least) * (high - least));
+            step = newton_step(point, system, middle);
+            (step.cwiseAbs().maxCoeff() > limit ? low : high) = middle;
+        }
+        step = newton_step(point, system, high);
+        const Scalar length = step.cwiseAbs().maxCoeff();
+        return length > limit ? Vector<Scalar>(step * (limit / length)) : step;
+    }
+
     SceneType scene_;
+    SceneType coarse_;
     Params params_;
 };
 

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Stationary states by Newton's method against time marching from the same start: agreement, evaluations and time, and
+// growth rates from the linearisation against those by differences (docs/stationary.md).
+#include "support/report.hpp"
+#include <axistokes/discretization/linear_elements.hpp>
+#include <axistokes/discretization/spectral_meridian.hpp>
+#include <axistokes/flow/gravity.hpp>
+#include <axistokes/flow/poiseuille.hpp>
+#include <axistokes/flow/sum.hpp>
+#include <axistokes/flow/unbounded_poiseuille.hpp>
+#include <axistokes/geometry/tube_shapes.hpp>
+#include <axistokes/kernel/free_space.hpp>
+#include <axistokes/kernel/tube.hpp>
+#include <axistokes/membrane/vesicle.hpp>
+#include <axistokes/simulator.hpp>
+#include <axistokes/solver/dense.hpp>
+#include <axistokes/time/semi_implicit_euler.hpp>
+#include <axistokes/time/stationary_solver.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+#include <iostream>
+#include <string>
+
+namespace {
+
+using namespace axistokes;
+using OpenFlow = Sum<UnboundedPoiseuille<double>, Gravity<double>>;
+
+/// Processor time: other programs on the machine must not show.
+class Stopwatch {
+  public:
+    double seconds() const { return static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC; }
+
+  private:
+    std::clock_t begin_ = std::clock();
+};
+
+constexpr double kTolerance = 1e-8;
+
+double length(const Meridian<double>& shape) {
+    return shape.z[shape.elements()] - shape.z[0];
+}
+
+template <class Kernel, class Flow>
+void compare(examples::Report& table, const std::string& name, const Kernel& kernel, const Flow& flow,
+             const Meridian<double>& start) {
+    using March =
+        Simulator<Kernel, SpectralMeridian<double>, Vesicle<double>, Flow, SemiImplicitEuler, DenseLU<double>>;
+    SimulationParams<double> params;
+    params.tolerance = kTolerance;
+    const Stopwatch marching;
+    March march(start, flow, params, kernel);
+    march.run();
+    const double march_seconds = marching.seconds();
+    const auto& last = march.history().back();
+
+    StationaryParams<double> newton_params;
+    newton_params.tolerance = kTolerance;
+    StationarySolver<typename March::SceneType> newton(march.scene(), newton_params);
+    const Stopwatch solving;
+    const auto state = newton.solve(start, march.initial_area(), march.initial_volume());
+    const double newton_seconds = solving.seconds();
+    const Stopwatch examining;
+    const double growth = newton.growth_rates(state).front().real();
+    const double growth_seconds = examining.seconds();
+    const double by_differences = newton.growth_rates(state, 1e-5).front().real();
+    table.row(name, start.elements(), march.history().size(), march_seconds, state.evaluations, state.jacobians,
+              state.coarse_evaluations, state.coarse_jacobians, state.mobility_changes, newton_seconds,
+              march_seconds / newton_seconds, last.residual, state.residual, state.instant.velocity,
+              std::abs(state.instant.velocity / last.velocity - 1),
+              std::abs(length(state.configuration.shape) - last.length), growth, growth_seconds, by_differences);
+}
+
+/// The velocity at equal accuracy: spectral Newton against P1 elements marched.
+void equal_accuracy(examples::Report& table, const OpenFlow& flow) {
+    const auto start = [](Index n) { return spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n); };
+    using SpectralScene =
+        Scene<FreeSpaceKernel<double>, SpectralMeridian<double>, Vesicle<double>, OpenFlow, DenseLU<double>>;
+    using March = Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, OpenFlow,
+                            SemiImplicitEuler, DenseLU<double>>;
+    StationaryParams<double> newton_params;
+    newton_params.tolerance = kTolerance;
+    StationarySolver<SpectralScene> newton(SpectralScene({}, SpectralMeridian<double>(), {}, flow, {}), newton_params);
+    const double area = 4 * detail::pi_value<double>() + 0.6;
+    const double volume = 4 * detail::pi_value<double>() / 3;
+    const double exact = newton.solve(start(64), area, volume).instant.velocity;
+    for (const Index n : {12, 16, 24, 32, 48}) {
+        const Stopwatch watch;
+        const auto state = newton.solve(start(n), area, volume);
+        table.row("spectral Newton", n, std::abs(state.instant.velocity / exact - 1), watch.seconds());
+    }
+    for (const Index n : {64, 128, 260}) {
+        SimulationParams<double> params;
+        params.tolerance = kTolerance;
+        const Stopwatch watch;
+        March march(start(n), flow, params);
+        march.run();
+        table.row("P1 marched", n, std::abs(march.history().back().velocity / exact - 1), watch.seconds());
+    }
+}
+
+void study(const std::string& directory) {
+    std::cout.precision(6);
+    examples::Report table(directory, "newton.csv",
+                           "case,modes,steps,march_seconds,evaluations,jacobians,coarse_evaluations,coarse_jacobians,"
+                           "mobility_changes,newton_seconds,speed_up,march_residual,newton_residual,velocity,"
+                           "velocity_difference,length_difference,growth,growth_seconds,growth_by_differences");
+    const OpenFlow settling(UnboundedPoiseuille<double>(0), Gravity<double>(47));
+    const OpenFlow unbounded(UnboundedPoiseuille<double>(0.5), Gravity<double>(0));
+    for (const Index n : {32, 48}) {
+        const auto start = spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n);
+        compare(table, "settling B0=47 D=0.6", FreeSpaceKernel<double>(), settling, start);
+        compare(table, "unbounded Poiseuille Ca=0.5 D=0.6", FreeSpaceKernel<double>(), unbounded, start);
+        const auto in_tube = [&](const std::string& name, double excess_area, double confinement, double ca,
+                                 SpheroidKind kind) {
+            const double radius = 1 / confinement;
+            compare(table, name, TubeKernel<double>(radius), Poiseuille<double>(ca, radius),
+                    shape_in_tube<double>(excess_area, radius, kind, n));
+        };
+        in_tube("tube D=1.59 L=1/0.9 Ca=100", 1.59, 1 / 0.9, 100, SpheroidKind::prolate);
+        in_tube("tube D=0.9 L=0.3 Ca=1", 0.9, 0.3, 1, SpheroidKind::prolate);
+        in_tube("tube D=0.9 L=0.3 Ca=20 oblate start", 0.9, 0.3, 20, SpheroidKind::oblate);
+        in_tube("tube D=0.9 L=0.3 Ca=40", 0.9, 0.3, 40, SpheroidKind::prolate);
+    }
+    examples::Report accuracy(directory, "equal_accuracy.csv", "method,modes_or_elements,velocity_error,seconds");
+    equal_accuracy(accuracy, settling);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Stationary states by Newton's method against time marching"};
+    std::string directory;
+    app.add_option("--out", directory, "directory that receives newton.csv and equal_accuracy.csv");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        study(directory);
+    } catch (const std::exception& error) {
+        std::cerr << "stationary_study: " << error.what() << '\n';
+        return EXIT_FAILURE;
+    }
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Derivative of a vesicle's normal velocity with respect to normal displacements of its nodes (docs/stationary.md).
+#pragma once
+
+#include "../membrane/vesicle.hpp"
+#include "../scene.hpp"
+#include "coarse_scene.hpp"
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace axistokes::detail {
+
+/// Velocity of the centroid, and normal velocities relative to it, of a velocity field given at the nodes of `surface`.
+template <class S, class Surface>
+std::pair<S, Vector<S>> relative_normal_velocity(const Surface& surface, const Vector<S>& z, const Vector<S>& u) {
+    const Index n = surface.size();
+    Vector<S> w = surface.normal_r.cwiseProduct(u.head(n)) + surface.normal_z.cwiseProduct(u.tail(n));
+    const Vector<S> moment = surface.weight.cwiseProduct(z);
+    const S velocity = moment.dot(w) / moment.dot(surface.normal_z);
+    w -= velocity * surface.normal_z;
+    return {velocity, std::move(w)};
+}
+
+/// Moves the nodes by `displacement` along the normals of `surface`; the poles stay on the axis.
+template <class S, class Surface>
+void displace(Meridian<S>& shape, const Surface& surface, const Vector<S>& displacement) {
+    const Index n = shape.nodes();
+    shape.r += surface.normal_r.cwiseProduct(displacement);
+    shape.z += surface.normal_z.cwiseProduct(displacement);
+    shape.r[0] = shape.r[n - 1] = 0;
+}
+
+/// Change of the velocity G f + (what walls add to the flow) at the nodes, f fixed, with the amplitudes of the first
+/// modes cos(kt) of the normal displacement: 2n x modes. One-sided differences, an assembly for each mode.
+template <class SceneType>
+Matrix<typename SceneType::Scalar> mobility_change(SceneType& scene,
+                                                   const Configuration<typename SceneType::Scalar>& configuration,
+                                                   const Vector<typename SceneType::Scalar>& force, Index modes,
+                                                   const typename SceneType::Scalar& step) {
+    using std::cos;
+    using S = typename SceneType::Scalar;
+    const Index n = configuration.shape.nodes();
+    const auto velocity = [&](const Configuration<S>& at, auto& surface) {
+        auto frozen = scene.freeze(at);
+        complete_rank<S>(frozen.surface, frozen.mobility);
+        Vector<S> u = frozen.mobility * force;
+        if constexpr (std::decay_t<decltype(scene.wall())>::present) {
+            u += frozen.background - scene.background_velocity(at);
+        }
+        surface = std::move(frozen.surface);
+        return u;
+    };
+    typename SceneType::Surface surface;
+    typename SceneType::Surface moved_surface;
+    const Vector<S> here = velocity(configuration, surface);
+    Matrix<S> change(2 * n, modes);
+    Vector<S> mode(n);
+    for (Index k = 0; k < modes; ++k) {
+        for (Index i = 0; i < n; ++i) {
+            mode[i] = step * cos(pi_value<S>() * S(k * i % (2 * (n - 1))) / S(n - 1));
+        }
+        Configuration<S> moved = configuration;
+        displace<S>(moved.shape, surface, mode);
+        change.col(k) = (velocity(moved, moved_surface) - here) / step;
+    }
+    return change;
+}
+
+/// The change of G f with normal displacements, found on a coarse meridian: it is smoother by three derivatives than
+/// that of the bending force. Kept as modes, it serves any number of nodes, and shapes near by.
+template <class SceneType>
+class MobilityChange {
+  public:
+    using S = typename SceneType::Scalar;
+
+    Index degree() const { return degree_; }
+
+    /// An assembly with `degree` modes for each of the first `modes` modes of the displacement.
+    void find(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force, Index degree,
+              Index modes) {
+        degree_ = degree;
+        if constexpr (Resampling<SceneType>) {
+            const Index n = configuration.shape.nodes();
+            const auto down = coarse.discretization().transfer(n - 1, degree);
+            const Configuration<S> there{
+                coarse.discretization().resampled(configuration.shape, degree), configuration.position, {}};
+            Vector<S> coarse_force(2 * (degree + 1));
+            coarse_force << down->odd * force.head(n), down->even * force.tail(n);
+            change_ = mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>());
+        }
+    }
+
+    /// 2n x n; empty if no change was found.
+    Matrix<S> at_nodes(const SceneType& scene, Index n) const {
+        Matrix<S> result;
+        if constexpr (Resampling<SceneType>) {
+            if (change_.size() > 0) {
+                const auto up = scene.discretization().transfer(degree_, n - 1);
+                const auto down = scene.discretization().transfer(n - 1, degree_);
+                const Matrix<S> by_node = change_ * down->amplitudes.topRows(change_.cols());
+                result.resize(2 * n, n);
+                result << up->odd * by_node.topRows(degree_ + 1), up->even * by_node.bottomRows(degree_ + 1);
+            }
+        }
+        return result;
+    }
+
+  private:
+    Index degree_ = 0;
+    Matrix<S> change_;
+};
+
+/// d(normal velocity relative to the centroid)/d(normal displacement) of u = u_inf + G (F + load + T gamma), D u = 0.
+/// The derivatives of F, T, D, of the load, of u_inf and of the normals are one-sided differences, without assemblies;
+/// that of G comes in `mobility_change`, 2n x n, or is left out if that is empty.
+template <class SceneType>
+Matrix<typename SceneType::Scalar> velocity_jacobian(const SceneType& scene, const typename SceneType::Frozen& frozen,
+                                                     const Configuration<typename SceneType::Scalar>& configuration,
+                                                     const typename SceneType::InstantType& instant,
+                                                     const Matrix<typename SceneType::Scalar>& mobility_change) {
+    using std::sqrt;
+    using S = typename SceneType::Scalar;
+    const auto& surface = frozen.surface;
+    const Index n = surface.size();
+    const Vector<S>& tension = instant.solution.tension;
+    const auto& membrane = scene.membrane();
+    const Vector<S> force = membrane.force(surface, tension) + frozen.load;
+    const Vector<S> flow = without_flux<S>(surface, scene.background_velocity(configuration));
+    Vector<S> motion = instant.solution.velocity;  // relative to the centroid: 0 in the stationary state
+    motion.tail(n).array() -= instant.velocity;
+    const Vector<S> stretch = surface.divergence * motion;
+    const Vector<S> normal = relative_normal_velocity<S>(surface, configuration.shape.z, motion).second;
+    const S step = sqrt(std::numeric_limits<S>::epsilon());
+    Matrix<S> force_change(2 * n, n);
+    Matrix<S> change(2 * n, n);
+    Matrix<S> stretch_change(surface.divergence.rows(), n);
+    Matrix<S> jacobian(n, n);
+    for (Index j = 0; j < n; ++j) {
+        Configuration<S> moved = configuration;
+        displace<S>(moved.shape, surface, step * Vector<S>::Unit(n, j));
+        const auto at = scene.discretization().surface(moved.shape);
+        force_change.col(j) = (membrane.force(at, tension) + scene.normal_load(moved, at) - force) / step;
+        change.col(j) = (without_flux<S>(at, scene.background_velocity(moved)) - flow) / step;
+        stretch_change.col(j) = (at.divergence * motion - stretch) / step;
+        jacobian.col(j) = (relative_normal_velocity<S>(at, moved.shape.z, motion).second - normal) / step;
+    }
+    Matrix<S> g = frozen.mobility;
+    complete_rank<S>(surface, g);
+    change += g * force_change;
+    if (mobility_change.size() > 0) {
+        change += mobility_change;
+    }
+    const Matrix<S> pull = g * surface.tension_force;
+    const Matrix<S> divergence_of_pull = surface.divergence * pull;
+    const Matrix<S> divergence_of_change = surface.divergence * change + stretch_change;
+    change -= pull * divergence_of_pull.partialPivLu().solve(divergence_of_change);
+
+    Matrix<S> normal_change =
+        surface.normal_r.asDiagonal() * change.topRows(n) + surface.normal_z.asDiagonal() * change.bottomRows(n);
+    const Vector<S> moment = surface.weight.cwiseProduct(configuration.shape.z);
+    normal_change -= (surface.normal_z * (moment.transpose() * normal_change / moment.dot(surface.normal_z))).eval();
+    return jacobian + normal_change;
+}
+
+}  // namespace axistokes::detail
