@@ -40,7 +40,7 @@ double drag_factor(const Kernel& kernel, const Wall& wall, Index n) {
         body.z[i] = -std::cos(t);
     }
     Scene<Kernel, SpectralMeridian<double>, RigidBody<double>, Gravity<double>, DenseLU<double>, Wall> scene(
-        kernel, {}, {}, Gravity<double>(4.5), {}, wall);
+        kernel, SpectralMeridian<double>(), {}, Gravity<double>(4.5), {}, wall);
     return -1 / scene.evaluate({body, 0.0, {}}, 0).velocity;
 }
 

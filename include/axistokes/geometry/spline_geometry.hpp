@@ -62,7 +62,8 @@ class SplineGeometry {
         return true;
     }
 
-    /// `elements` elements on the same curve, spaced as the parameters ask for. Throws InvalidArgument for fewer than 8.
+    /// `elements` elements on the same curve, spaced as the parameters ask for. Throws InvalidArgument for fewer
+    /// than 8.
     Meridian<S> redistributed(const Meridian<S>& shape, Index elements) const {
         return axistokes::redistribute(shape, meshing_.spacing, elements);
     }
