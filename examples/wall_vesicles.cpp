@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A stationary vesicle in a tube by either method (docs/wall_mesh.md): agreement, wall nodes needed, time per step, and
 // how far it disturbs the flow.
+#include "support/command_line.hpp"
 #include "support/interleaved.hpp"
 #include "support/program.hpp"
 #include "support/progress.hpp"

@@ -39,7 +39,7 @@ bool restore_area_and_volume(Meridian<S>& meridian, const S& area, const S& volu
         Eigen::CompleteOrthogonalDecomposition<Matrix<S>> decomposition;
         decomposition.setThreshold(S(1e-5));
         decomposition.compute(jacobian);
-        const Eigen::Matrix<S, 2, 1> change = decomposition.solve(Vector<S>(defect));
+        const Vector<S> change = decomposition.solve(Vector<S>(defect));
         if (decomposition.rank() < 2 && change.cwiseAbs().maxCoeff() < tolerance) {
             return true;
         }

@@ -198,7 +198,7 @@ class SpectralGeometry {
             Eigen::CompleteOrthogonalDecomposition<Matrix<S>> decomposition;
             decomposition.setThreshold(S(1e-5));
             decomposition.compute(jacobian);
-            const Eigen::Matrix<S, 2, 1> change = decomposition.solve(Vector<S>(defect));
+            const Vector<S> change = decomposition.solve(Vector<S>(defect));
             if (decomposition.rank() < 2 && change.cwiseAbs().maxCoeff() < tolerance) {
                 return true;
             }
