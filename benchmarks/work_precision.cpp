@@ -68,7 +68,7 @@ class Table {
         const double median = seconds[seconds.size() / 2];
         const double error =
             std::max(std::abs(outcome.velocity / exact.velocity - 1), std::abs(outcome.length / exact.length - 1));
-        file_ << scene << ',' << line << ',' << n << ',' << outcome.steps << ',' << std::setprecision(6) << median
+        file_ << scene << ",\"" << line << "\"," << n << ',' << outcome.steps << ',' << std::setprecision(6) << median
               << ',' << error << std::endl;
         std::cout << std::left << std::setw(12) << scene << std::setw(22) << line << std::right << std::setw(5) << n
                   << std::setw(8) << outcome.steps << std::setw(12) << std::setprecision(3) << median << std::setw(12)
