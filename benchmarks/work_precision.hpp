@@ -44,11 +44,7 @@ namespace detail {
 
 using namespace axistokes;
 
-/// Quadratures that do not limit the discretisation.
-template <class Discretization>
-Discretization discretization() {
-    return Discretization();
-}
+/// Errors that do not limit the discretisation.
 template <class Discretization>
 constexpr double kernel_tolerance = std::is_same_v<Discretization, SpectralMeridian<double>> ? 1e-12 : 1e-8;
 
@@ -58,31 +54,25 @@ inline TubeKernel<double> tube(double radius, double tolerance) {
     return TubeKernel<double>(radius, params);
 }
 
-template <class Integrator, class Kernel, class Discretization, class Flow>
-Outcome march(const Kernel& kernel, const Discretization& discretization, const Flow& flow,
-              const Meridian<double>& start, const SimulationParams<double>& params) {
-    Simulator<Kernel, Discretization, axistokes::Vesicle<double>, Flow, Integrator, DenseLU<double>> simulator(
-        start, flow, params, kernel, discretization);
-    simulator.run();
-    const auto& last = simulator.history().back();
-    return {last.velocity, last.length, last.step};
+/// Of a time step; Newton's method is none.
+inline ExtrapolatedEulerOfOrder integrator(Stepping stepping) {
+    return ExtrapolatedEulerOfOrder(stepping == Stepping::order3 ? 3 : stepping == Stepping::order2 ? 2 : 1);
 }
 
+template <class Discretization, class Kernel, class Flow>
+using March =
+    Simulator<Kernel, Discretization, axistokes::Vesicle<double>, Flow, ExtrapolatedEulerOfOrder, DenseLU<double>>;
+
 /// Marches to a residual of 1e-2, then Newton.
-template <class Kernel, class Discretization, class Flow>
-Outcome newton(const Kernel& kernel, const Discretization& discretization, const Flow& flow,
-               const Meridian<double>& start, double residual) {
-    using Membrane = axistokes::Vesicle<double>;
+template <class Discretization, class Kernel, class Flow>
+Outcome newton(const Kernel& kernel, const Flow& flow, const Meridian<double>& start, double residual) {
     SimulationParams<double> params;
     params.tolerance = 1e-2;
-    Simulator<Kernel, Discretization, Membrane, Flow, SemiImplicitEuler, DenseLU<double>> simulator(
-        start, flow, params, kernel, discretization);
+    March<Discretization, Kernel, Flow> simulator(start, flow, params, kernel);
     simulator.run();
     StationaryParams<double> newton_params;
     newton_params.tolerance = residual;
-    StationarySolver solver(
-        Scene<Kernel, Discretization, Membrane, Flow, DenseLU<double>>(kernel, discretization, {}, flow, {}),
-        newton_params);
+    StationarySolver solver(simulator.scene(), newton_params);
     const auto state =
         solver.solve(simulator.configuration().shape, simulator.initial_area(), simulator.initial_volume());
     const auto& z = state.configuration.shape.z;
@@ -90,24 +80,20 @@ Outcome newton(const Kernel& kernel, const Discretization& discretization, const
             static_cast<Index>(simulator.history().size()) + state.evaluations};
 }
 
-template <class Kernel, class Discretization, class Flow>
+template <class Discretization, class Kernel, class Flow>
 Outcome stationary_of(const Kernel& kernel, const Flow& flow, const Meridian<double>& start, Stepping stepping,
                       const Setting& setting) {
-    const Discretization discretization = detail::discretization<Discretization>();
+    if (stepping == Stepping::newton) {
+        return newton<Discretization>(kernel, flow, start, setting.residual);
+    }
     SimulationParams<double> params;
     params.tolerance = setting.residual;
     params.step_tolerance = setting.step_tolerance;
-    switch (stepping) {
-        case Stepping::euler:
-            return march<SemiImplicitEuler>(kernel, discretization, flow, start, params);
-        case Stepping::order2:
-            return march<SecondOrder>(kernel, discretization, flow, start, params);
-        case Stepping::order3:
-            return march<ThirdOrder>(kernel, discretization, flow, start, params);
-        case Stepping::newton:
-            break;
-    }
-    return newton(kernel, discretization, flow, start, setting.residual);
+    March<Discretization, Kernel, Flow> simulator(start, flow, params, kernel, Discretization(), {},
+                                                  integrator(stepping));
+    simulator.run();
+    const auto& last = simulator.history().back();
+    return {last.velocity, last.length, last.step};
 }
 
 }  // namespace detail
@@ -118,8 +104,7 @@ Outcome drag(double confinement, Index n) {
     using Kernel = TubeKernel<double>;
     Simulator<Kernel, Discretization, RigidBody<double>, Gravity<double>, ExplicitEuler, DenseLU<double>> simulator(
         sphere<double>(n), Gravity<double>(1.0), {},
-        detail::tube(1 / confinement, detail::kernel_tolerance<Discretization>),
-        detail::discretization<Discretization>());
+        detail::tube(1 / confinement, detail::kernel_tolerance<Discretization>));
     return {-2.0 / 9 / simulator.step().velocity, 1, 1};
 }
 
@@ -130,16 +115,16 @@ Outcome stationary(Vesicle scene, Stepping stepping, const Setting& setting) {
     const auto start = spheroid_of_excess_area<double>(excess_area, SpheroidKind::prolate, setting.n);
     switch (scene) {
         case Vesicle::settling:
-            return detail::stationary_of<FreeSpaceKernel<double>, Discretization>(
-                FreeSpaceKernel<double>(), Gravity<double>(47.0), start, stepping, setting);
+            return detail::stationary_of<Discretization>(FreeSpaceKernel<double>(), Gravity<double>(47.0), start,
+                                                         stepping, setting);
         case Vesicle::unbounded:
-            return detail::stationary_of<FreeSpaceKernel<double>, Discretization>(
-                FreeSpaceKernel<double>(), UnboundedPoiseuille<double>(0.5), start, stepping, setting);
+            return detail::stationary_of<Discretization>(FreeSpaceKernel<double>(), UnboundedPoiseuille<double>(0.5),
+                                                         start, stepping, setting);
         case Vesicle::tube:
             break;
     }
     constexpr double kRadius = 0.9;
-    return detail::stationary_of<TubeKernel<double>, Discretization>(
+    return detail::stationary_of<Discretization>(
         detail::tube(kRadius, detail::kernel_tolerance<Discretization>), Poiseuille<double>(100.0, kRadius),
         shape_in_tube<double>(excess_area, kRadius, SpheroidKind::prolate, setting.n), stepping, setting);
 }
@@ -158,22 +143,11 @@ Outcome transient(Stepping stepping, const Setting& setting) {
         params.longest_time = 2 * kTime;
     }
     const auto start = spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, setting.n);
-    const auto run = [&]<class Integrator>(Integrator) {
-        Simulator<FreeSpaceKernel<double>, Discretization, axistokes::Vesicle<double>, Gravity<double>, Integrator,
-                  DenseLU<double>>
-            simulator(start, Gravity<double>(47.0), params, {}, detail::discretization<Discretization>());
-        simulator.run();
-        const auto& last = simulator.history().back();
-        return Outcome{last.position, last.length, last.step};
-    };
-    switch (stepping) {
-        case Stepping::order2:
-            return run(SecondOrder());
-        case Stepping::order3:
-            return run(ThirdOrder());
-        default:
-            return run(SemiImplicitEuler());
-    }
+    detail::March<Discretization, FreeSpaceKernel<double>, Gravity<double>> simulator(
+        start, Gravity<double>(47.0), params, {}, Discretization(), {}, detail::integrator(stepping));
+    simulator.run();
+    const auto& last = simulator.history().back();
+    return {last.position, last.length, last.step};
 }
 
 }  // namespace work_precision

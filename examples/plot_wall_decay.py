@@ -9,20 +9,13 @@ import csv
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
+
+from plot_run import plt
 
 # First root of the tube's eigenvalue equation J0^2 + J1^2 = 2 J0 J1/k.
 RATE, WAVE_NUMBER = 4.46630, 1.46747
 COLOURS = ["#1f5fa8", "#2b7a4b", "#d08a00", "#b5541c"]
-
-plt.rcParams.update({
-    "font.size": 9, "axes.labelsize": 9, "mathtext.fontset": "dejavusans", "axes.spines.top": False,
-    "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.25, "lines.linewidth": 1.5, "savefig.dpi": 110,
-})
 
 
 def read_cases(path):
@@ -56,7 +49,7 @@ def draw(cases, path):
         rates.axhline(value, color="0.4", lw=1, ls=":")
         rates.text(rates.get_xlim()[1], value + 0.12, name, ha="right", fontsize=8)
     rates.set(xlabel="$z/R_c$", ylabel=r"fitted $k R_c$", ylim=(0.8, 5.6))
-    figure.savefig(path, pil_kwargs={"optimize": True})
+    figure.savefig(path, dpi=110, pil_kwargs={"optimize": True})
 
 
 def main():

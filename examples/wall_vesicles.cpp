@@ -10,10 +10,10 @@
 #include "support/wall_decay.hpp"
 #include "support/wall_nodes.hpp"
 #include <axistokes/axistokes.hpp>
+#include <axistokes/geometry/distance.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -83,24 +83,6 @@ template <class SceneType>
 auto stationary(const SceneType& scene, const Meridian<double>& start, const Options& options) {
     return StationarySolver<SceneType>(scene).solve(start, 4 * detail::pi_value<double>() + options.vesicle.excess_area,
                                                     4 * detail::pi_value<double>() / 3);
-}
-
-/// Largest distance of a node of one meridian from the other one's chords.
-double distance(const Meridian<double>& a, const Meridian<double>& b) {
-    double largest = 0;
-    for (Index i = 0; i < a.nodes(); ++i) {
-        double nearest = std::numeric_limits<double>::infinity();
-        for (Index e = 0; e < b.elements(); ++e) {
-            const double dr = b.r[e + 1] - b.r[e];
-            const double dz = b.z[e + 1] - b.z[e];
-            const double r = a.r[i] - b.r[e];
-            const double z = a.z[i] - b.z[e];
-            const double t = std::clamp((r * dr + z * dz) / (dr * dr + dz * dz), 0.0, 1.0);
-            nearest = std::min(nearest, std::hypot(r - t * dr, z - t * dz));
-        }
-        largest = std::max(largest, nearest);
-    }
-    return largest;
 }
 
 double largest_deviation(const Vector<double>& values, const Vector<double>& reference) {
@@ -209,9 +191,7 @@ void decay(const Options& options, const State& state) {
     ByWall scene = by_wall(options, elements, params);
     const auto instant = scene.evaluate(state.configuration, 0);
     // The uniform pressure in the force moves nothing: without it, neither does its discretisation error.
-    const Vector<double> normals = instant.surface.normals();
-    const Vector<double>& total = instant.solution.force;
-    const Vector<double> force = total - instant.surface.flux(total) / instant.surface.flux(normals) * normals;
+    const auto force = detail::without_flux<double>(instant.surface, instant.solution.force);
     Tube tube = scene.wall();
     const auto field = tube.field(elements, scene.kernel(), state.configuration.shape, force);
     examples::DecayReport report(options.directory);

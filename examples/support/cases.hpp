@@ -2,6 +2,7 @@
 // Tables of cases: read from a file or made as a grid, and the rows already computed.
 #pragma once
 
+#include "csv_input.hpp"
 #include "program.hpp"
 #include <axistokes/core.hpp>
 
@@ -115,58 +116,16 @@ inline std::vector<Case> grid(const std::vector<double>& confinements, const std
 
 /// Throws InvalidArgument with file and line.
 inline std::vector<Case> read_cases(const std::filesystem::path& file) {
-    std::ifstream input(file);
-    if (std::filesystem::is_directory(file) || !input) {
-        throw axistokes::InvalidArgument(file.string() + ": cannot be read");
-    }
-    const auto split = [](const std::string& line) {
-        std::vector<std::string> fields;
-        std::stringstream stream(line);
-        for (std::string field; std::getline(stream, field, ',');) {
-            const auto begin = field.find_first_not_of(" \t\r");
-            const auto end = field.find_last_not_of(" \t\r");
-            fields.push_back(begin == std::string::npos ? "" : field.substr(begin, end - begin + 1));
-        }
-        return fields;
-    };
-    std::size_t number = 1;
-    const auto fail = [&](const std::string& what) {
-        throw axistokes::InvalidArgument(file.string() + ':' + std::to_string(number) + ": " + what);
-    };
-    std::string line;
-    std::getline(input, line);
-    const std::vector<std::string> header = split(line);
-    std::array<std::size_t, 3> columns{};
-    const std::array<std::string, 3> names{"confinement", "reduced_volume", "capillary_number"};
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        const auto found = std::find(header.begin(), header.end(), names[k]);
-        if (found == header.end()) {
-            fail("missing column '" + names[k] + "'");
-        }
-        columns[k] = static_cast<std::size_t>(found - header.begin());
-    }
+    constexpr std::array<std::string_view, 3> names{"confinement", "reduced_volume", "capillary_number"};
     std::vector<Case> cases;
-    while (std::getline(input, line)) {
-        ++number;
-        const std::vector<std::string> fields = split(line);
-        if (fields.empty()) {
-            continue;
-        }
-        std::array<double, 3> values{};
-        for (std::size_t k = 0; k < names.size(); ++k) {
-            const std::string field = columns[k] < fields.size() ? fields[columns[k]] : "";
-            const auto result = std::from_chars(field.data(), field.data() + field.size(), values[k]);
-            if (field.empty() || result.ec != std::errc() || result.ptr != field.data() + field.size()) {
-                fail(names[k] + " = '" + field + "': not a number");
-            }
-        }
+    read_columns(file, names, [&](const auto& values, const auto&, const Place& place) {
         cases.push_back({values[0], values[1], values[2]});
         try {
             check(cases.back());
         } catch (const axistokes::InvalidArgument& error) {
-            fail(error.what());
+            place.fail(error.what());
         }
-    }
+    });
     return cases;
 }
 

@@ -13,7 +13,6 @@
 #include <axistokes/time/stationary_solver.hpp>
 #include <axistokes/wall/no_wall.hpp>
 
-#include <algorithm>
 #include <memory>
 
 namespace examples {
@@ -27,11 +26,10 @@ class Compiled : public Discretization {
     using Free = axistokes::FreeSpaceKernel<double>;
     using Discretization::Discretization;
 
-    /// The same with integrals as coarse as `tolerance`, or as they are.
-    Compiled loosened(double tolerance) const {
-        typename Discretization::Params params = this->params();
-        params.tolerance = std::max(params.tolerance, tolerance);
-        return Compiled(params);
+    /// As the discretisation's own, if it has one.
+    Compiled loosened(double tolerance) const
+        requires(requires(const Discretization& discretization) { discretization.loosened(0.0); }) {
+        return Compiled(Discretization::loosened(tolerance).params());
     }
 
     Surface surface(const Shape& meridian) const;

@@ -67,11 +67,7 @@ int pass(const PassageOptions& options) {
     const Channel profile = options.channel();
     const auto accuracy = options.method.accuracy();
     constexpr bool spectral = judges_itself<Discretization>;
-    typename Discretization::Params numerics;
-    if (accuracy) {
-        numerics.tolerance = accuracy->quadrature;
-    }
-    const Discretization discretization(numerics);
+    const auto discretization = discretization_for<Discretization>(accuracy);
     const bool adapts = spectral && accuracy && !options.elements;
     const auto initial = [&](Index elements) {
         return axistokes::spheroid_of_excess_area<double>(options.excess_area, axistokes::SpheroidKind::prolate,

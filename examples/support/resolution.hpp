@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace examples {
 
@@ -47,6 +48,16 @@ axistokes::Meridian<double> nodes_of(const Discretization& discretization,
     } else {
         return shape(elements);
     }
+}
+
+/// With integrals as accurate as that takes; without an accuracy the discretisation's own default.
+template <class Discretization>
+Discretization discretization_for(const std::optional<axistokes::Accuracy<double>>& accuracy) {
+    typename Discretization::Params params;
+    if (accuracy) {
+        params.tolerance = accuracy->quadrature;
+    }
+    return Discretization(params);
 }
 
 /// What an accuracy is about: the relative errors of velocity and length.

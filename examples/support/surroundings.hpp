@@ -7,7 +7,6 @@
 #include <axistokes/kernel/tube_filon.hpp>
 #include <axistokes/wall/wall_mesh.hpp>
 
-#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -55,12 +54,7 @@ class OptionalTubeKernel : public axistokes::FreeSpaceKernel<double> {
     /// The same with the error `tolerance`, or the present one if that is larger.
     OptionalTubeKernel loosened(double tolerance) const {
         const auto* tube = std::get_if<Tube>(&tube_);
-        if (!tube) {
-            return *this;
-        }
-        Tube::Params params = tube->params();
-        params.tolerance = std::max(params.tolerance, tolerance);
-        return OptionalTubeKernel(Tube(tube->tube_radius(), params));
+        return tube ? OptionalTubeKernel(tube->loosened(tolerance)) : *this;
     }
 
     double tube_radius() const {

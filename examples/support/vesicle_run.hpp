@@ -38,7 +38,7 @@ class VesicleRun {
           run_(c.run),
           params_(run_.params()),
           accuracy_(run_.method.accuracy()),
-          discretization_(discretization(accuracy_)),
+          discretization_(discretization_for<Discretization>(accuracy_)),
           kernel_(std::move(kernel)),
           wall_(std::move(wall)),
           frames_(run_.frame_times),
@@ -81,14 +81,6 @@ class VesicleRun {
         }
         march_to_the_end();
         ending_.take(*simulator_);
-    }
-
-    static Discretization discretization(const std::optional<axistokes::Accuracy<double>>& accuracy) {
-        typename Discretization::Params params;
-        if (accuracy) {
-            params.tolerance = accuracy->quadrature;
-        }
-        return Discretization(params);
     }
 
     double exact_area() const { return 4 * std::numbers::pi + case_.excess_area; }

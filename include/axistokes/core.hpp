@@ -76,6 +76,13 @@ S pi_value() {
     }
 }
 
+template <class T>
+std::string text(const T& value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+}
+
 /// Throws InvalidArgument unless `ok`. Written so that NaN fails every comparison a caller passes in.
 template <class T>
 void require(bool ok, const char* argument, const T& value, const char* accepted) {

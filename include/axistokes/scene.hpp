@@ -41,6 +41,22 @@ struct FilmThickness {
     S mean = std::numeric_limits<S>::infinity();
 };
 
+namespace detail {
+
+/// Velocity of the centroid, and normal velocities relative to it, of a velocity field given at the nodes of `surface`:
+/// dz_c/dt = (1/V) Int (z - z_c) u.n dA, normalised so that u = e_z gives exactly 1. `z` is relative to the centroid.
+template <class S, class Surface>
+std::pair<S, Vector<S>> relative_normal_velocity(const Surface& surface, const Vector<S>& z, const Vector<S>& u) {
+    const Index n = surface.size();
+    Vector<S> w = surface.normal_r.cwiseProduct(u.head(n)) + surface.normal_z.cwiseProduct(u.tail(n));
+    const Vector<S> moment = surface.weight.cwiseProduct(z);
+    const S velocity = moment.dot(w) / moment.dot(surface.normal_z);
+    w -= velocity * surface.normal_z;
+    return {velocity, std::move(w)};
+}
+
+}  // namespace detail
+
 /// Policies of a scene. Every policy comes by value and is const afterwards, but for the solver and the wall, which may
 /// keep factors between solves.
 template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Membrane, Background Flow,
@@ -106,18 +122,14 @@ class Scene {
         instant.surface = frozen.surface;
         instant.shear_rate = frozen.shear_rate;
         const Surface& surface = frozen.surface;
-        const Index n = surface.size();
         instant.solution =
             membrane_.solve(MobilityProblem<Scalar, Surface>{surface, frozen.mobility, frozen.background, frozen.load,
                                                              configuration.tension, implicit_time},
                             solver_);
-        const Vector<Scalar>& u = instant.solution.velocity;
-        const Vector<Scalar> normal_velocity =
-            surface.normal_r.cwiseProduct(u.head(n)) + surface.normal_z.cwiseProduct(u.tail(n));
-        // dz_c/dt = (1/V) Int (z - z_c) u.n dA, normalised so that u = e_z gives exactly 1.
-        const Vector<Scalar> moment = surface.weight.cwiseProduct(configuration.shape.z);
-        instant.velocity = moment.dot(normal_velocity) / moment.dot(surface.normal_z);
-        instant.deformation_rate = (normal_velocity - instant.velocity * surface.normal_z).cwiseAbs().maxCoeff();
+        const auto [velocity, deformation] =
+            detail::relative_normal_velocity<Scalar>(surface, configuration.shape.z, instant.solution.velocity);
+        instant.velocity = velocity;
+        instant.deformation_rate = deformation.cwiseAbs().maxCoeff();
         if constexpr (ConfiningKernel<Kernel>) {
             instant.pressure_drop = kernel_.pressure_drop(surface, instant.solution.force);
         }

@@ -8,7 +8,6 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 namespace axistokes {
@@ -192,12 +191,12 @@ class Simulator {
                 return history_.back();
             }
             if (params_.time_step) {
-                fail("time step " + text(dt_) + " is too large: " + cause);
+                fail("time step " + detail::text(dt_) + " is too large: " + cause);
             }
             dt_ = retry_;
             ++rejected;
             if (dt_ < params_.smallest_time_step) {
-                fail("the time step fell below " + text(params_.smallest_time_step) + ": " + cause);
+                fail("the time step fell below " + detail::text(params_.smallest_time_step) + ": " + cause);
             }
         }
     }
@@ -271,15 +270,9 @@ class Simulator {
         Scalar shear_rate{};
     };
 
-    static std::string text(const Scalar& value) {
-        std::ostringstream out;
-        out << value;
-        return out.str();
-    }
-
     [[noreturn]] void fail(const std::string& cause) const {
-        throw SimulationFailure("step " + std::to_string(history_.size() + 1) + " at time " + text(time_) + ": " +
-                                cause);
+        throw SimulationFailure("step " + std::to_string(history_.size() + 1) + " at time " + detail::text(time_) +
+                                ": " + cause);
     }
 
     std::optional<Attempt> try_step(std::string& cause) {
@@ -303,7 +296,7 @@ class Simulator {
             record.step_error = step->error;
             const Scalar motion = step->instant.deformation_rate * dt_;
             if (estimates_error() && !params_.time_step && !(step->error <= allowed_error(motion))) {
-                cause = "the step's error is " + text(step->error) + " R0";
+                cause = "the step's error is " + detail::text(step->error) + " R0";
                 retry_ = dt_ * std::min(Scalar(0.5), step_factor(step->error, motion));
                 return std::nullopt;
             }
@@ -318,7 +311,7 @@ class Simulator {
             next.tension = std::move(step->instant.solution.tension);
             const Scalar displacement = step->instant.deformation_rate * dt_;
             if (!estimates_error() && !params_.time_step && !(displacement <= 2 * params_.largest_displacement)) {
-                cause = "the membrane would move by " + text(displacement) + " R0";
+                cause = "the membrane would move by " + detail::text(displacement) + " R0";
                 return std::nullopt;
             }
             if (!deform(next, record, cause)) {
@@ -349,8 +342,8 @@ class Simulator {
         record.area_error = raw.area / area_ - 1;
         record.volume_error = raw.volume / volume_ - 1;
         if (!discretization.restore(shape, area_, volume_)) {
-            cause = "area and volume drifted by " + text(record.area_error) + " and " + text(record.volume_error) +
-                    " and could not be restored";
+            cause = "area and volume drifted by " + detail::text(record.area_error) + " and " +
+                    detail::text(record.volume_error) + " and could not be restored";
             return false;
         }
         record.redistributed = discretization.redistribute(shape);
@@ -367,27 +360,16 @@ class Simulator {
         if (record.film_thickness_min > film_ / 2 || std::isinf(static_cast<double>(film_))) {
             return true;
         }
-        cause = record.film_thickness_min > Scalar(0) ? "the distance to the wall would shrink from " + text(film_) +
-                                                            " to " + text(record.film_thickness_min)
-                                                      : "the membrane would cross the wall";
+        cause = record.film_thickness_min > Scalar(0)
+                    ? "the distance to the wall would shrink from " + detail::text(film_) + " to " +
+                          detail::text(record.film_thickness_min)
+                    : "the membrane would cross the wall";
         return false;
     }
 
     static bool usable(const Meridian<Scalar>& shape, std::string& cause) {
-        if (!shape.r.allFinite() || !shape.z.allFinite()) {
-            cause = "a node's position is not finite";
-            return false;
-        }
-        if (!(shape.r.segment(1, shape.nodes() - 2).minCoeff() > Scalar(0))) {
-            cause = "a node crossed the axis";
-            return false;
-        }
-        if (const auto crossing = self_intersection(shape)) {
-            cause = "the membrane intersects itself at nodes " + std::to_string(crossing->first) + " and " +
-                    std::to_string(crossing->second);
-            return false;
-        }
-        return true;
+        cause = detail::fault(shape);
+        return cause.empty();
     }
 
     void describe(Configuration<Scalar>& next, Record& record) const {

@@ -67,6 +67,26 @@ std::optional<std::pair<Index, Index>> self_intersection(const Meridian<S>& meri
     return std::nullopt;
 }
 
+namespace detail {
+
+/// Why nothing can be computed on a shape that was valid and has been deformed; empty if it is valid still.
+template <class S>
+std::string fault(const Meridian<S>& shape) {
+    if (!shape.r.allFinite() || !shape.z.allFinite()) {
+        return "a node's position is not finite";
+    }
+    if (!(shape.r.segment(1, shape.nodes() - 2).minCoeff() > S(0))) {
+        return "a node crossed the axis";
+    }
+    if (const auto crossing = self_intersection(shape)) {
+        return "the membrane intersects itself at nodes " + std::to_string(crossing->first) + " and " +
+               std::to_string(crossing->second);
+    }
+    return "";
+}
+
+}  // namespace detail
+
 /// Throws InvalidArgument unless the nodes describe a closed surface without self-intersection: at least 8 elements,
 /// finite coordinates, r = 0 at both ends and r > 0 between, distinct consecutive nodes, lower pole first.
 template <class S>

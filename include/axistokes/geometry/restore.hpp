@@ -8,21 +8,61 @@
 
 namespace axistokes {
 
+namespace detail {
+
+/// The displacement (a + b H) n that takes the measures `now` to the area and volume wanted, to first order, from Int H
+/// dA and Int H^2 dA: dA = Int 2 H phi dA, dV = Int phi dA for a normal displacement phi. On a sphere, where the two
+/// cannot be changed independently, in the least-squares sense; `independent` tells.
+template <class S>
+struct RestoringShift {
+    S constant{};
+    S by_curvature{};
+    bool independent = true;
+
+    RestoringShift(const Measures<S>& now, const S& area, const S& volume, const S& curvature,
+                   const S& squared_curvature) {
+        // Of fixed size, in float, these make g++ 12 warn inside Eigen.
+        Matrix<S> jacobian(2, 2);
+        jacobian << 2 * curvature / area, 2 * squared_curvature / area, now.area / volume, curvature / volume;
+        Vector<S> defect(2);
+        defect << (area - now.area) / area, (volume - now.volume) / volume;
+        Eigen::CompleteOrthogonalDecomposition<Matrix<S>> decomposition;
+        decomposition.setThreshold(S(1e-5));
+        decomposition.compute(jacobian);
+        const Vector<S> change = decomposition.solve(defect);
+        constant = change[0];
+        by_curvature = change[1];
+        independent = decomposition.rank() == 2;
+    }
+
+    /// Nothing is left to do: what remains cannot be changed.
+    bool exhausted(const S& tolerance) const {
+        using std::abs;
+        return !independent && abs(constant) < tolerance && abs(by_curvature) < tolerance;
+    }
+};
+
+/// Whether area and volume are those wanted.
+template <class S>
+bool restored(const Measures<S>& now, const S& area, const S& volume, const S& tolerance) {
+    using std::abs;
+    return abs((area - now.area) / area) <= tolerance && abs((volume - now.volume) / volume) <= tolerance;
+}
+
+}  // namespace detail
+
 /// Displaces the nodes by (a + b H) n, the smallest normal displacement that changes area and volume, until both have
 /// the values given (to `tolerance`, relative; measured on the spline through the nodes). On a sphere, where the two
 /// cannot be changed independently, the volume and area are restored in the least-squares sense.
 /// Returns false if Newton's iteration does not get there.
 template <class S>
 bool restore_area_and_volume(Meridian<S>& meridian, const S& area, const S& volume, const S& tolerance) {
-    using std::abs;
     for (int iteration = 0; iteration < 8; ++iteration) {
         const MeridianSpline<S> spline(meridian);
         const Measures<S> now = spline.measures();
-        Eigen::Matrix<S, 2, 1> defect{(area - now.area) / area, (volume - now.volume) / volume};
-        if (abs(defect[0]) <= tolerance && abs(defect[1]) <= tolerance) {
+        if (detail::restored(now, area, volume, tolerance)) {
             return true;
         }
-        // dA = Int 2H phi dA, dV = Int phi dA for a normal displacement phi.
         S total_curvature = 0;
         S squared_curvature = 0;
         const S two_pi = 2 * detail::pi_value<S>();
@@ -32,15 +72,8 @@ bool restore_area_and_volume(Meridian<S>& meridian, const S& area, const S& volu
             total_curvature += h * da;
             squared_curvature += h * h * da;
         });
-        Eigen::Matrix<S, 2, 2> jacobian;
-        jacobian << 2 * total_curvature / area, 2 * squared_curvature / area, now.area / volume,
-            total_curvature / volume;
-        // Of fixed size, in float, it makes g++ 12 warn inside Eigen.
-        Eigen::CompleteOrthogonalDecomposition<Matrix<S>> decomposition;
-        decomposition.setThreshold(S(1e-5));
-        decomposition.compute(jacobian);
-        const Vector<S> change = decomposition.solve(Vector<S>(defect));
-        if (decomposition.rank() < 2 && change.cwiseAbs().maxCoeff() < tolerance) {
+        const detail::RestoringShift<S> change(now, area, volume, total_curvature, squared_curvature);
+        if (change.exhausted(tolerance)) {
             return true;
         }
         for (Index i = 0; i < meridian.nodes(); ++i) {
@@ -48,7 +81,7 @@ bool restore_area_and_volume(Meridian<S>& meridian, const S& area, const S& volu
             const bool pole = i == 0 || i + 1 == meridian.nodes();
             const S k = p.meridional_curvature();
             const S h = pole ? k : S((k + p.normal().r / p.position.r) / 2);
-            const S shift = change[0] + change[1] * h;
+            const S shift = change.constant + change.by_curvature * h;
             if (!pole) {
                 meridian.r[i] += shift * p.normal().r;
             }

@@ -6,10 +6,10 @@
 #include "measures.hpp"
 #include "meridian.hpp"
 #include "remesh.hpp"
+#include "restore.hpp"
 #include "trigonometric.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -177,34 +177,25 @@ class SpectralGeometry {
     /// Displaces the nodes by (a + b H) n until area and volume have the values given, to 1000 epsilon; false if
     /// Newton's iteration does not get there. See restore_area_and_volume.
     bool restore(Meridian<S>& shape, const S& area, const S& volume) const {
-        using std::abs;
         const S tolerance = 1000 * std::numeric_limits<S>::epsilon();
         const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
         for (int iteration = 0; iteration < 8; ++iteration) {
             const Measures<S> now = measures(shape);
-            Eigen::Matrix<S, 2, 1> defect{(area - now.area) / area, (volume - now.volume) / volume};
-            if (abs(defect[0]) <= tolerance && abs(defect[1]) <= tolerance) {
+            if (detail::restored(now, area, volume, tolerance)) {
                 return true;
             }
-            // dA = Int 2H phi dA, dV = Int phi dA for a normal displacement phi.
             const SpectralCurve<S> fine(shape, basis->fine());
             const Vector<S> fine_h = fine.mean_curvature();
             const Vector<S> da =
                 2 * detail::pi_value<S>() * basis->fine().weights.cwiseProduct(fine.r).cwiseProduct(fine.speed);
-            const S total = da.dot(fine_h);
-            Eigen::Matrix<S, 2, 2> jacobian;
-            jacobian << 2 * total / area, 2 * da.dot(fine_h.cwiseAbs2()) / area, now.area / volume, total / volume;
-            // Of fixed size, in float, it makes g++ 12 warn inside Eigen.
-            Eigen::CompleteOrthogonalDecomposition<Matrix<S>> decomposition;
-            decomposition.setThreshold(S(1e-5));
-            decomposition.compute(jacobian);
-            const Vector<S> change = decomposition.solve(Vector<S>(defect));
-            if (decomposition.rank() < 2 && change.cwiseAbs().maxCoeff() < tolerance) {
+            const detail::RestoringShift<S> change(now, area, volume, da.dot(fine_h), da.dot(fine_h.cwiseAbs2()));
+            if (change.exhausted(tolerance)) {
                 return true;
             }
             const SpectralCurve<S> curve(shape, *basis);
             const Vector<S> shift =
-                ((change[0] + change[1] * curve.mean_curvature().array()) / curve.speed.array()).matrix();
+                ((change.constant + change.by_curvature * curve.mean_curvature().array()) / curve.speed.array())
+                    .matrix();
             shape.r += shift.cwiseProduct(curve.z1);
             shape.z -= shift.cwiseProduct(curve.r1);
             shape.r[0] = shape.r[shape.elements()] = 0;

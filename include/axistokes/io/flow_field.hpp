@@ -2,6 +2,7 @@
 // The velocity of the fluid around (and in) a membrane, on a grid of the meridian half-plane.
 #pragma once
 
+#include "../membrane/flux.hpp"
 #include "../scene.hpp"
 
 #include <cmath>
@@ -94,9 +95,7 @@ FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configur
 
     // The uniform pressure in f moves nothing: without it, neither does its discretisation error.
     const Surface& surface = instant.surface;
-    const Vector<S> normals = surface.normals();
-    const Vector<S>& total = instant.solution.force;
-    const Vector<S> force = total - (surface.flux(total) / surface.flux(normals)) * normals;
+    const Vector<S> force = detail::without_flux<S>(surface, instant.solution.force);
 
     // The scene's mesh need not reach as far as the grid.
     constexpr bool walled = std::remove_cvref_t<decltype(scene.wall())>::present;

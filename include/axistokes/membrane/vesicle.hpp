@@ -6,33 +6,13 @@
 #pragma once
 
 #include "../concepts.hpp"
+#include "flux.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace axistokes {
-
-namespace detail {
-
-/// Removes the mean normal force from what `mobility` is applied to and the flux from what it returns. The exact single
-/// layer maps n to 0 (a uniform pressure moves nothing) and creates no flux; a discrete one does so up to O(h^2), which
-/// would act as a leak and as an arbitrary pressure.
-template <class S, class Surface>
-void complete_rank(const Surface& surface, Matrix<S>& mobility) {
-    const Vector<S> n = surface.normals();
-    const Vector<S> mean = surface.volume_gradient / surface.flux(n);
-    mobility -= ((mobility * n) * mean.transpose()).eval();
-    mobility -= (n * (mean.transpose() * mobility)).eval();
-}
-
-template <class S, class Surface>
-Vector<S> without_flux(const Surface& surface, const Vector<S>& velocity) {
-    const Vector<S> n = surface.normals();
-    return velocity - (surface.flux(velocity) / surface.flux(n)) * n;
-}
-
-}  // namespace detail
 
 template <class S = double>
 class Vesicle {

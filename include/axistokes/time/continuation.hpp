@@ -13,7 +13,6 @@
 #include <concepts>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -108,7 +107,7 @@ class Continuation {
         std::optional<Node> first = corrected(start, problem_.derivative(start), fixed_parameter(start));
         if (!first) {
             throw SimulationFailure("continuation: no solution near the start, at parameter " +
-                                    text(problem_.parameter(start)));
+                                    detail::text(problem_.parameter(start)));
         }
         Node now = std::move(*first);
         finish(now, fixed_parameter(start) * Scalar(direction));
@@ -125,8 +124,9 @@ class Continuation {
                 }
                 step /= 2;
                 if (step < params_.smallest_step) {
-                    throw SimulationFailure("continuation: no solution beyond parameter " + text(parameter(now)) +
-                                            " with steps of " + text(params_.smallest_step));
+                    throw SimulationFailure("continuation: no solution beyond parameter " +
+                                            detail::text(parameter(now)) + " with steps of " +
+                                            detail::text(params_.smallest_step));
                 }
             }
             const bool fold = (now.slope() > Scalar(0)) != (next->slope() > Scalar(0));
@@ -171,12 +171,6 @@ class Continuation {
 
         Scalar slope() const { return tangent[tangent.size() - 1]; }
     };
-
-    static std::string text(const Scalar& value) {
-        std::ostringstream out;
-        out << value;
-        return out.str();
-    }
 
     Scalar parameter(const Node& node) { return problem_.parameter(node.point); }
 

@@ -43,10 +43,7 @@ void evaluate(SceneType& scene, StationaryPoint<SceneType>& point) {
 template <class SceneType, class S>
 bool settle(const SceneType& scene, Configuration<S>& configuration, const S& area, const S& volume) {
     Meridian<S>& shape = configuration.shape;
-    const auto proper = [&] {
-        return shape.r.allFinite() && shape.z.allFinite() && shape.r.segment(1, shape.nodes() - 2).minCoeff() > S(0) &&
-               !self_intersection(shape) && scene.film_thickness(configuration).min > S(0);
-    };
+    const auto proper = [&] { return fault(shape).empty() && scene.film_thickness(configuration).min > S(0); };
     if (!proper() || !scene.discretization().restore(shape, area, volume) || !proper()) {
         return false;
     }

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <complex>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -153,12 +152,6 @@ requires(SceneType::deformable) class StationarySolver {
         Scalar travelled = std::numeric_limits<Scalar>::max();  // since then, in R0
     };
 
-    static std::string text(const Scalar& value) {
-        std::ostringstream out;
-        out << value;
-        return out.str();
-    }
-
     void find(detail::MobilityChange<SceneType>& change, const Configuration<Scalar>& configuration,
               const InstantType& instant, Index degree) {
         const Index used = std::min(degree, configuration.shape.elements());
@@ -172,8 +165,8 @@ requires(SceneType::deformable) class StationarySolver {
         point.configuration.shape = shape;
         scene.discretization().redistribute(point.configuration.shape);
         if (!detail::settle(scene, point.configuration, area, volume)) {
-            throw SimulationFailure("stationary state: the first shape cannot be given the area " + text(area) +
-                                    " and the volume " + text(volume));
+            throw SimulationFailure("stationary state: the first shape cannot be given the area " + detail::text(area) +
+                                    " and the volume " + detail::text(volume));
         }
         detail::evaluate(scene, point);
         ++state.evaluations;
@@ -198,8 +191,8 @@ requires(SceneType::deformable) class StationarySolver {
         Index degree = std::max(coarsest_change, linearisation.change.degree());
         for (Index iteration = 1; !(point.residual < tolerance); ++iteration) {
             if (iteration > params_.most_iterations) {
-                throw SimulationFailure("stationary state: the residual is " + text(point.residual) + " after " +
-                                        std::to_string(params_.most_iterations) + " iterations");
+                throw SimulationFailure("stationary state: the residual is " + detail::text(point.residual) +
+                                        " after " + std::to_string(params_.most_iterations) + " iterations");
             }
             ++state.iterations;
             if (jacobian.size() == 0) {
@@ -243,7 +236,8 @@ requires(SceneType::deformable) class StationarySolver {
             } else {
                 limit = std::min(limit, length) / 4;
                 if (limit < std::numeric_limits<Scalar>::epsilon()) {
-                    throw SimulationFailure("stationary state: no step reduces the residual " + text(point.residual));
+                    throw SimulationFailure("stationary state: no step reduces the residual " +
+                                            detail::text(point.residual));
                 }
             }
         }

@@ -2,7 +2,7 @@
 // Derivative of a vesicle's normal velocity with respect to normal displacements of its nodes (docs/stationary.md).
 #pragma once
 
-#include "../membrane/vesicle.hpp"
+#include "../membrane/flux.hpp"
 #include "../scene.hpp"
 #include "coarse_scene.hpp"
 
@@ -11,20 +11,8 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 namespace axistokes::detail {
-
-/// Velocity of the centroid, and normal velocities relative to it, of a velocity field given at the nodes of `surface`.
-template <class S, class Surface>
-std::pair<S, Vector<S>> relative_normal_velocity(const Surface& surface, const Vector<S>& z, const Vector<S>& u) {
-    const Index n = surface.size();
-    Vector<S> w = surface.normal_r.cwiseProduct(u.head(n)) + surface.normal_z.cwiseProduct(u.tail(n));
-    const Vector<S> moment = surface.weight.cwiseProduct(z);
-    const S velocity = moment.dot(w) / moment.dot(surface.normal_z);
-    w -= velocity * surface.normal_z;
-    return {velocity, std::move(w)};
-}
 
 /// Moves the nodes by `displacement` along the normals of `surface`; the poles stay on the axis.
 template <class S, class Surface>
