@@ -84,6 +84,18 @@ TEST_CASE("Newton agrees with marching: settling") {
     agrees_with_marching(flow(0, 47), SpheroidKind::prolate, 0.6);
 }
 
+TEST_CASE("P1 elements: few evaluations from a spheroid, and the linearisation's growth rates") {
+    StationarySolver<SceneType> solver(SceneType({}, LinearElements<double>(), {}, flow(0, 47), {}));
+    const Meridian<double> shape = spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, 2 * kElements);
+    const auto measures = solver.scene().discretization().measures(shape);
+    const auto state = solver.solve(shape, measures.area, measures.volume);
+    CHECK(state.residual < 1e-9);
+    CHECK(state.evaluations + state.coarse_evaluations <= 20);
+    const double rate = solver.growth_rates(state).front().real();
+    CHECK(rate == Approx(solver.growth_rates(state, 1e-5).front().real()).epsilon(0.02));
+    CHECK(state.growth == Approx(rate).epsilon(0.05));
+}
+
 TEST_CASE("The leading growth rate is the decay rate of a small disturbance") {
     const Flow quiescent = flow(0, 0);
     const auto start = march(quiescent, SpheroidKind::prolate, 0.6, 1e-8, 10);

@@ -15,8 +15,10 @@
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace axistokes {
@@ -46,6 +48,13 @@ class LinearElements : public SplineGeometry<S> {
         : SplineGeometry<S>(params.meshing), params_(checked(params)), rules_(params.tolerance) {}
 
     const Params& params() const { return params_; }
+
+    /// The same discretisation with integrals as coarse as `tolerance`.
+    LinearElements loosened(const S& tolerance) const {
+        Params params = params_;
+        params.tolerance = std::max(params.tolerance, tolerance);
+        return LinearElements(std::move(params));
+    }
 
     Surface surface(const Meridian<S>& meridian) const { return linear_surface(meridian); }
 

@@ -7,6 +7,7 @@
 #include "meridian.hpp"
 #include "remesh.hpp"
 #include "restore.hpp"
+#include "series_transfer.hpp"
 #include "trigonometric.hpp"
 
 #include <Eigen/LU>
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <memory>
 
 namespace axistokes {
 
@@ -30,34 +30,6 @@ struct SpectralMeshingParams {
 };
 
 namespace detail {
-
-/// From nodal values of series of one degree to those of another one, the parameter kept: cut off or continued by 0.
-template <class S>
-struct SpectralTransfer {
-    Matrix<S> even;
-    Matrix<S> odd;
-    /// Amplitudes of the modes cos(kt) that both have.
-    Matrix<S> amplitudes;
-
-    SpectralTransfer(Index from, Index to) {
-        using std::cos;
-        using std::sin;
-        const auto basis = TrigonometricBasis<S>::of_degree(from);
-        const Index modes = std::min(from, to) + 1;
-        Matrix<S> cosines(to + 1, modes);
-        Matrix<S> sines(to + 1, modes);
-        for (Index i = 0; i <= to; ++i) {
-            for (Index k = 0; k < modes; ++k) {
-                const S angle = pi_value<S>() * S(i * k % (2 * to)) / S(to);
-                cosines(i, k) = cos(angle);
-                sines(i, k) = i == 0 || i == to ? S(0) : S(sin(angle));
-            }
-        }
-        amplitudes = basis->even_coefficients().topRows(modes);
-        even = cosines * amplitudes;
-        odd = sines * basis->odd_coefficients().topRows(modes);
-    }
-};
 
 }  // namespace detail
 
@@ -255,11 +227,7 @@ class SpectralGeometry {
 
     /// The same series with `elements` + 1 nodes, cut off or continued by 0: the nodes keep their relative spacing.
     Meridian<S> resampled(const Meridian<S>& shape, Index elements) const {
-        const auto there = transfer(shape.elements(), elements);
-        return {there->odd * shape.r, there->even * shape.z};
-    }
-    static std::shared_ptr<const detail::SpectralTransfer<S>> transfer(Index from, Index to) {
-        return detail::computed_once<detail::SpectralTransfer<S>>(from, to);
+        return detail::resampled(shape, elements);
     }
 
   private:

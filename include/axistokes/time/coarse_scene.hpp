@@ -29,12 +29,6 @@ SceneType loosened_scene(const SceneType& scene, const S& tolerance) {
                      scene.flow(), scene.solver(), scene.wall());
 }
 
-/// Whether a meridian of the scene can be taken to one with fewer nodes and back.
-template <class SceneType>
-concept Resampling = requires(const SceneType& scene, const Meridian<typename SceneType::Scalar>& shape) {
-    { scene.discretization().resampled(shape, Index()) } -> std::same_as<Meridian<typename SceneType::Scalar>>;
-};
-
 /// For differences of integrals that are correct to a few digits: the error made is about the step itself.
 template <class S>
 S coarse_difference_step() {

@@ -24,7 +24,7 @@ requires(SceneType::deformable) class StationaryBranch {
     struct Params {
         /// Difference of the parameter for derivatives; > 0. The integrals' errors are divided by it.
         Scalar parameter_step = Scalar(1e-4);
-        /// Degree of the meridian on which the mobility's change is found, for discretisations that can be resampled.
+        /// Degree of the meridian on which the mobility's change is found; at least 8.
         Index change_degree = 16;
     };
 
@@ -69,16 +69,14 @@ requires(SceneType::deformable) class StationaryBranch {
         const auto& configuration = point.state.configuration;
         const Index n = surface.size();
         detail::MobilityChange<SceneType> change;
-        if constexpr (detail::Resampling<SceneType>) {
-            SceneType coarse = detail::loosened_scene(*point.scene, Scalar(1e-4));
-            const Index degree = std::min(params_.change_degree, n - 1);
-            change.find(coarse, configuration, point.state.instant.solution.force, degree, (3 * degree) / 4);
-        }
+        SceneType coarse = detail::loosened_scene(*point.scene, Scalar(1e-4));
+        const Index degree = std::min(params_.change_degree, n - 1);
+        change.find(coarse, configuration, point.state.instant.solution.force, degree, (3 * degree) / 4);
         Matrix<Scalar> derivative(n + 3, n + 4);
         derivative.leftCols(n + 3) =
             detail::bordered<Scalar>(surface, configuration.shape.z,
                                      detail::velocity_jacobian(*point.scene, point.state.frozen, configuration,
-                                                               point.state.instant, change.at_nodes(*point.scene, n)));
+                                                               point.state.instant, change.at_nodes(n)));
         const Scalar step = params_.parameter_step;
         const Scalar p = point.parameter;
         detail::StationaryPoint<SceneType> there;

@@ -31,7 +31,7 @@ struct StationaryParams {
     S renewal = S(5);
     /// Keep off states that are unstable against axisymmetric disturbances, as time marching does.
     bool only_stable = true;
-    /// Solve with half the modes first (discretisations that can be resampled).
+    /// Solve with half of the modes or elements first.
     bool coarse_start = true;
 };
 
@@ -82,24 +82,21 @@ requires(SceneType::deformable) class StationarySolver {
         validate(shape);
         State state;
         Linearisation linearisation;
-        if constexpr (detail::Resampling<SceneType>) {
-            const Index half = shape.elements() / 2;
-            if (params_.coarse_start && half >= least_degree) {
-                try {
-                    const auto& resample = scene_.discretization();
-                    State coarse;
-                    iterate(coarse_, resample.resampled(shape, half), area, volume, coarse_tolerance(), linearisation,
-                            coarse);
-                    state.coarse_evaluations = coarse.evaluations;
-                    state.coarse_jacobians = coarse.jacobians;
-                    state.mobility_changes = coarse.mobility_changes;
-                    iterate(scene_, resample.resampled(coarse.configuration.shape, shape.elements()), area, volume,
-                            params_.tolerance, linearisation, state);
-                    return state;
-                } catch (const SimulationFailure&) {
-                    // Half of the modes may not resolve the shape.
-                    linearisation = {};
-                }
+        const Index half = shape.elements() / 2;
+        if (params_.coarse_start && half >= least_degree) {
+            try {
+                State coarse;
+                iterate(coarse_, detail::resampled(shape, half), area, volume, coarse_tolerance(), linearisation,
+                        coarse);
+                state.coarse_evaluations = coarse.evaluations;
+                state.coarse_jacobians = coarse.jacobians;
+                state.mobility_changes = coarse.mobility_changes;
+                iterate(scene_, detail::resampled(coarse.configuration.shape, shape.elements()), area, volume,
+                        params_.tolerance, linearisation, state);
+                return state;
+            } catch (const SimulationFailure&) {
+                // Half of the nodes may not resolve the shape.
+                linearisation = {};
             }
         }
         iterate(scene_, shape, area, volume, params_.tolerance, linearisation, state);
@@ -109,17 +106,25 @@ requires(SceneType::deformable) class StationarySolver {
     /// Growth rates of small axisymmetric disturbances that keep area, volume and the centroid, largest real part
     /// first: the eigenvalues of dw/dphi on these disturbances. The state is stable if all are negative.
     std::vector<std::complex<Scalar>> growth_rates(const State& state) {
-        if constexpr (detail::Resampling<SceneType>) {
-            const auto frozen = scene_.freeze(state.configuration);
+        const auto frozen = scene_.freeze(state.configuration);
+        const auto rates_with = [&](Index degree) {
             detail::MobilityChange<SceneType> change;
-            find(change, state.configuration, state.instant, finest_change);
+            find(change, state.configuration, state.instant, degree);
             return detail::growth_rates<Scalar>(
                 state.instant.surface, state.configuration.shape.z,
                 detail::velocity_jacobian(scene_, frozen, state.configuration, state.instant,
-                                          change.at_nodes(scene_, state.instant.surface.size())));
-        } else {
-            return growth_rates(state, Scalar(1e-5));
+                                          change.at_nodes(state.instant.surface.size())));
+        };
+        const Index finest = state.configuration.shape.elements();
+        Index degree = std::min(coarsest_rates, finest);
+        auto rates = rates_with(degree);
+        for (Scalar change = 1; change > rates_accuracy() && degree < finest;) {
+            degree = raised(degree, finest);
+            auto finer = rates_with(degree);
+            change = std::abs(finer.front() - rates.front()) / std::abs(finer.front());
+            rates = std::move(finer);
         }
+        return rates;
     }
 
     /// The same by central differences of the full equations: twice as many evaluations as nodes.
@@ -141,9 +146,12 @@ requires(SceneType::deformable) class StationarySolver {
     /// Least degree and residual of a solution that is a first guess.
     static constexpr Index least_degree = 12;
     static Scalar coarse_tolerance() { return Scalar(1e-4); }
-    /// Degrees of the meridian on which the mobility's change is found: at first, and how far it may be raised.
+    /// Degree of the meridian on which the mobility's change is found: at first, and when it does not suffice.
     static constexpr Index coarsest_change = 12;
-    static constexpr Index finest_change = 24;
+    static Index raised(Index degree, Index elements) { return std::min((3 * degree) / 2, elements); }
+    /// For growth rates the degree is raised from this one until the leading rate changes by less than the accuracy.
+    static constexpr Index coarsest_rates = 20;
+    static Scalar rates_accuracy() { return Scalar(0.01); }
     /// Displacement after which the mobility's change is found again, in R0.
     static Scalar stale_change() { return Scalar(0.1); }
 
@@ -154,8 +162,7 @@ requires(SceneType::deformable) class StationarySolver {
 
     void find(detail::MobilityChange<SceneType>& change, const Configuration<Scalar>& configuration,
               const InstantType& instant, Index degree) {
-        const Index used = std::min(degree, configuration.shape.elements());
-        change.find(coarse_, configuration, instant.solution.force, used, (3 * used) / 4);
+        change.find(coarse_, configuration, instant.solution.force, degree, (3 * degree) / 4);
     }
 
     /// From `shape` to the stationary state of `scene`; counts what it takes, also when it fails.
@@ -179,7 +186,7 @@ requires(SceneType::deformable) class StationarySolver {
                 ++state.mobility_changes;
             }
             jacobian = detail::velocity_jacobian(scene, point.frozen, point.configuration, point.instant,
-                                                 linearisation.change.at_nodes(scene, point.velocity.size()));
+                                                 linearisation.change.at_nodes(point.velocity.size()));
             ++state.jacobians;
             if (params_.only_stable) {
                 const auto& z = point.configuration.shape.z;
@@ -188,7 +195,20 @@ requires(SceneType::deformable) class StationarySolver {
             }
         };
         Scalar limit = params_.largest_displacement;
-        Index degree = std::max(coarsest_change, linearisation.change.degree());
+        Index degree = std::min(std::max(coarsest_change, linearisation.change.degree()), shape.elements());
+        // After a short step that gained little: whether the mobility's change can be improved, by a higher degree or,
+        // if next to nothing was gained, for having been found too far away. If not, another Jacobian would be the
+        // same, without what it has learned.
+        const auto refine = [&](const Scalar& length, bool hardly) {
+            const bool finest = degree == shape.elements();
+            const bool distant = hardly && linearisation.travelled > 3 * length;
+            if (!finest) {
+                degree = raised(degree, shape.elements());
+            } else if (distant) {
+                linearisation.travelled = std::numeric_limits<Scalar>::max();
+            }
+            return !finest || distant;
+        };
         for (Index iteration = 1; !(point.residual < tolerance); ++iteration) {
             if (iteration > params_.most_iterations) {
                 throw SimulationFailure("stationary state: the residual is " + detail::text(point.residual) +
@@ -217,23 +237,25 @@ requires(SceneType::deformable) class StationarySolver {
                 const Vector<Scalar> missed = trial.velocity - point.velocity - jacobian * step;
                 jacobian += missed * step.transpose() / step.squaredNorm();
             }
+            const bool short_step = length < params_.largest_displacement / 10;
             // An unstable state near by is left with a residual that grows tenfold in a step.
             const bool leaving = growth > Scalar(0) && 2 * length < limit;
             const Scalar increase = params_.allowed_increase * Scalar(leaving ? 10 : 1);
             if (usable && trial.residual <= increase * point.residual) {
                 // As long as the iteration converges well, what it has learned is cheaper than a new Jacobian.
-                const bool stale = moved || !(trial.residual < point.residual / params_.renewal);
-                const bool short_step = length < limit / 10;
+                const bool stale = !(trial.residual < point.residual / params_.renewal);
+                const bool hardly = !(trial.residual < point.residual / 2);
                 point = std::move(trial);
                 linearisation.travelled += length + (moved ? stale_change() / 2 : Scalar(0));
-                if (stale && !(point.residual < tolerance)) {
-                    if (short_step && linearisation.travelled < stale_change()) {
-                        degree = std::min(degree + 6, finest_change);
-                    }
+                if (!(point.residual < tolerance) &&
+                    (moved || (stale && (!short_step || refine(length, hardly))))) {
                     renew(degree);
                 }
                 limit = std::min(params_.largest_displacement, Scalar(2 * limit));
             } else {
+                if (usable && short_step && refine(length, true)) {
+                    renew(degree);
+                }
                 limit = std::min(limit, length) / 4;
                 if (limit < std::numeric_limits<Scalar>::epsilon()) {
                     throw SimulationFailure("stationary state: no step reduces the residual " +

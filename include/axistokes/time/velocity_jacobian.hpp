@@ -2,6 +2,7 @@
 // Derivative of a vesicle's normal velocity with respect to normal displacements of its nodes (docs/stationary.md).
 #pragma once
 
+#include "../geometry/series_transfer.hpp"
 #include "../membrane/flux.hpp"
 #include "../scene.hpp"
 #include "coarse_scene.hpp"
@@ -72,29 +73,21 @@ class MobilityChange {
     void find(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force, Index degree,
               Index modes) {
         degree_ = degree;
-        if constexpr (Resampling<SceneType>) {
-            const Index n = configuration.shape.nodes();
-            const auto down = coarse.discretization().transfer(n - 1, degree);
-            const Configuration<S> there{
-                coarse.discretization().resampled(configuration.shape, degree), configuration.position, {}};
-            Vector<S> coarse_force(2 * (degree + 1));
-            coarse_force << down->odd * force.head(n), down->even * force.tail(n);
-            change_ = mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>());
-        }
+        const Index n = configuration.shape.nodes();
+        const auto down = SeriesTransfer<S>::between(n - 1, degree);
+        const Configuration<S> there{resampled(configuration.shape, degree), configuration.position, {}};
+        Vector<S> coarse_force(2 * (degree + 1));
+        coarse_force << down->odd * force.head(n), down->even * force.tail(n);
+        change_ = mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>());
     }
 
-    /// 2n x n; empty if no change was found.
-    Matrix<S> at_nodes(const SceneType& scene, Index n) const {
-        Matrix<S> result;
-        if constexpr (Resampling<SceneType>) {
-            if (change_.size() > 0) {
-                const auto up = scene.discretization().transfer(degree_, n - 1);
-                const auto down = scene.discretization().transfer(n - 1, degree_);
-                const Matrix<S> by_node = change_ * down->amplitudes.topRows(change_.cols());
-                result.resize(2 * n, n);
-                result << up->odd * by_node.topRows(degree_ + 1), up->even * by_node.bottomRows(degree_ + 1);
-            }
-        }
+    /// 2n x n, after find().
+    Matrix<S> at_nodes(Index n) const {
+        const auto up = SeriesTransfer<S>::between(degree_, n - 1);
+        const auto down = SeriesTransfer<S>::between(n - 1, degree_);
+        const Matrix<S> by_node = change_ * down->amplitudes.topRows(change_.cols());
+        Matrix<S> result(2 * n, n);
+        result << up->odd * by_node.topRows(degree_ + 1), up->even * by_node.bottomRows(degree_ + 1);
         return result;
     }
 
@@ -105,7 +98,7 @@ class MobilityChange {
 
 /// d(normal velocity relative to the centroid)/d(normal displacement) of u = u_inf + G (F + load + T gamma), D u = 0.
 /// The derivatives of F, T, D, of the load, of u_inf and of the normals are one-sided differences, without assemblies;
-/// that of G comes in `mobility_change`, 2n x n, or is left out if that is empty.
+/// that of G comes in `mobility_change`, 2n x n.
 template <class SceneType>
 Matrix<typename SceneType::Scalar> velocity_jacobian(const SceneType& scene, const typename SceneType::Frozen& frozen,
                                                      const Configuration<typename SceneType::Scalar>& configuration,
@@ -139,10 +132,7 @@ Matrix<typename SceneType::Scalar> velocity_jacobian(const SceneType& scene, con
     }
     Matrix<S> g = frozen.mobility;
     complete_rank<S>(surface, g);
-    change += g * force_change;
-    if (mobility_change.size() > 0) {
-        change += mobility_change;
-    }
+    change += g * force_change + mobility_change;
     const Matrix<S> pull = g * surface.tension_force;
     const Matrix<S> divergence_of_pull = surface.divergence * pull;
     const Matrix<S> divergence_of_change = surface.divergence * change + stretch_change;
