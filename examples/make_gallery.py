@@ -134,7 +134,8 @@ def sphere_drag(g):
     for (label, exact), color in zip(DRAG.items(), colors):
         k = []
         for n in counts:
-            summary, _, _ = g.run(f"drag_{label.replace('/', '_')}_{n}", "sphere_in_tube", confinement=label, elements=n)
+            summary, _, _ = g.run(f"drag_{label.replace('/', '_')}_{n}", "sphere_in_tube", confinement=label, elements=n,
+                                  discretization="linear")
             k.append(summary["drag_factor"])
         error = np.abs(np.array(k) / exact - 1)
         extrapolated = np.abs((4 * np.array(k[1:]) - np.array(k[:-1])) / 3 / exact - 1)
@@ -178,7 +179,7 @@ def sphere_traction(g):
     rows = []
     for label, color in zip(labels, plt.get_cmap("viridis")(np.linspace(0, 0.9, len(labels)))):
         name = f"drag_{label.replace('/', '_')}_256"
-        summary, _, _ = g.run(name, "sphere_in_tube", confinement=label, elements=256)
+        summary, _, _ = g.run(name, "sphere_in_tube", confinement=label, elements=256, discretization="linear")
         table = g.table(name)
         # The sphere settles along -z, and the fluid's traction on it is the opposite of its own on the fluid.
         mean = 1.5 * summary["drag_factor"] * -summary["velocity"]
@@ -236,14 +237,14 @@ def refinement(g, name, title, counts, **options):
 def vesicle_in_tube(g):
     """A moderately confined vesicle at three meshes."""
     refinement(g, "vesicle_in_tube", r"$\Delta$ = 1.59, $R_c/R_0$ = 0.9, Ca = 100", (34, 65, 120), excess_area=1.59,
-               confinement="1/0.9", capillary_number=100)
+               confinement="1/0.9", capillary_number=100, discretization="linear")
 
 
 @figure
 def narrow_tube(g):
     """A vesicle like a red blood cell in a very narrow pore."""
-    refinement(g, "narrow_tube", r"$\Delta$ = 4.8, $R_c/R_0$ = 0.55, Ca = 100", (130, 200), excess_area=4.8,
-               confinement="1/0.55", capillary_number=100)
+    refinement(g, "narrow_tube", r"$\Delta$ = 4.8, $R_c/R_0$ = 0.55, Ca = 100", (64, 96, 128),
+               excess_area=4.8, confinement="1/0.55", capillary_number=100, stationary="newton")
 
 
 def draw_frames(axes, frames, radius, spacing):
@@ -266,7 +267,7 @@ def initial_shapes(g):
     fig, axes = plt.subplots(2, 1, figsize=(8.5, 6.4), layout="constrained")
     for a, kind in zip(axes, ("prolate", "oblate")):
         g.run(f"start_{kind}", "poiseuille_vesicle", excess_area=0.2, confinement="0.5", capillary_number=100,
-              elements=64, initial=kind, frame_times="0,0.01,0.03,0.13", dt=0.001, time=0.13)
+              elements=48, initial=kind, frame_times="0,0.01,0.03,0.13", dt=0.001, time=0.13)
         draw_frames(a, g.table(f"start_{kind}", "frames.csv"), 2, 2.7)
         a.set_title(f"{kind} start, $\\Delta$ = 0.2, $R_c/R_0$ = 2, Ca = 100")
         a.set_ylabel(r"$r/R_0$")
@@ -295,7 +296,8 @@ def two_branches(g):
 def both_starts(g, area, confinement, ca):
     """A label and the runs from the prolate and from the oblate spheroid."""
     runs = [g.run(f"start_{kind}_{area}_{confinement}_{ca}", "poiseuille_vesicle", excess_area=area,
-                  confinement=confinement, capillary_number=ca, elements=64, initial=kind, tolerance=1e-8)
+                  confinement=confinement, capillary_number=ca, elements=48, initial=kind,
+                  tolerance=1e-8)
             for kind in ("prolate", "oblate")]
     return f"D = {area}, R0/Rc = {confinement}, Ca = {ca}", runs
 
@@ -315,7 +317,7 @@ def bounded_unbounded(g):
     fig, axes = plt.subplots(1, 4, figsize=(11, 3.4), layout="constrained", sharey=True)
     rows = []
     for a, ratio in zip(axes, ratios):
-        options = dict(excess_area=1.59, elements=80, tolerance=1e-7)
+        options = dict(excess_area=1.59, elements=48, tolerance=1e-7)
         tube, bounded, _ = g.run(f"bounded_{ratio}", "poiseuille_vesicle", confinement="1/" + ratio,
                                  capillary_number=100, **options)
         free, unbounded, _ = g.run(f"unbounded_{ratio}", "poiseuille_vesicle",
@@ -350,7 +352,7 @@ def experiments(g):
     labelled = []
     for a, (area, ratio, ca, kind) in zip(axes, cases):
         summary, shape, _ = g.run(f"experiment_{area}", "poiseuille_vesicle", excess_area=area, confinement="1/" + ratio,
-                                  capillary_number=ca, elements=80, initial=kind)
+                                  capillary_number=ca, elements=48, initial=kind)
         x, y = sideways(shape)
         a.fill(x, y, color="#fbe9d9")
         a.plot(x, y, color=BROWN)
@@ -367,7 +369,7 @@ def settling_in_tube(g):
     fig, axes = plt.subplots(2, 2, figsize=(9.5, 5.2), layout="constrained")
     labelled = []
     for a, ratio in zip(axes.flat, ("10", "5", "2", "1.15")):
-        for n in (80, 160):
+        for n in (64, 96):
             summary, shape, _ = g.run(f"settling_{ratio}_{n}", "settling_vesicle", excess_area=0.93, bond=216,
                                       elements=n, confinement="1/" + ratio)
             labelled.append((f"{ratio}, N = {n}", summary))

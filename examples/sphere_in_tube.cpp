@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     std::optional<double> tolerance;
     tube.add_to(app, "0.5");
     examples::add_number(app, "--elements", run.elements,
-                         "elements, or modes, on the meridian (default: 64, spectral 32, with filon 16; with "
+                         "elements, or modes, on the meridian (default: spectral 32, linear 64, with filon 16; with "
                          "--preset-accuracy as many as it takes)");
     app.add_option("--flow", flow, "none: it is dragged along; poiseuille: it floats freely")->capture_default_str();
     wall.add_to(app, true);

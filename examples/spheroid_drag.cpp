@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
     examples::add_number(app, "--aspect", aspect, "polar over equatorial semi-axis (> 1: prolate)");
     examples::add_number(
         app, "--elements", run.elements,
-        "elements, or modes, on the meridian (default: 64, spectral 32; with --preset-accuracy as many "
+        "elements, or modes, on the meridian (default: spectral 32, linear 64; with --preset-accuracy as many "
         "as it takes)");
     run.method.add_to(app, true);
     run.add_output_to(app);

@@ -110,28 +110,32 @@ void equal_accuracy(examples::Report& table, const OpenFlow& flow) {
     }
 }
 
-void study(const std::string& directory) {
+void study(const std::string& directory, bool film) {
     std::cout.precision(6);
     examples::Report table(directory, "newton.csv",
                            "case,modes,steps,march_seconds,evaluations,jacobians,coarse_evaluations,coarse_jacobians,"
                            "mobility_changes,newton_seconds,speed_up,march_residual,newton_residual,velocity,"
                            "velocity_difference,length_difference,growth,growth_seconds,growth_by_differences");
+    const auto in_tube = [&](const std::string& name, double excess_area, double confinement, double ca,
+                             SpheroidKind kind, Index n) {
+        const double radius = 1 / confinement;
+        compare(table, name, TubeKernel<double>(radius), Poiseuille<double>(ca, radius),
+                shape_in_tube<double>(excess_area, radius, kind, n));
+    };
+    if (film) {
+        in_tube("tube D=4.8 L=1/0.55 Ca=100", 4.8, 1 / 0.55, 100, SpheroidKind::prolate, 64);
+        return;
+    }
     const OpenFlow settling(UnboundedPoiseuille<double>(0), Gravity<double>(47));
     const OpenFlow unbounded(UnboundedPoiseuille<double>(0.5), Gravity<double>(0));
     for (const Index n : {32, 48}) {
         const auto start = spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n);
         compare(table, "settling B0=47 D=0.6", FreeSpaceKernel<double>(), settling, start);
         compare(table, "unbounded Poiseuille Ca=0.5 D=0.6", FreeSpaceKernel<double>(), unbounded, start);
-        const auto in_tube = [&](const std::string& name, double excess_area, double confinement, double ca,
-                                 SpheroidKind kind) {
-            const double radius = 1 / confinement;
-            compare(table, name, TubeKernel<double>(radius), Poiseuille<double>(ca, radius),
-                    shape_in_tube<double>(excess_area, radius, kind, n));
-        };
-        in_tube("tube D=1.59 L=1/0.9 Ca=100", 1.59, 1 / 0.9, 100, SpheroidKind::prolate);
-        in_tube("tube D=0.9 L=0.3 Ca=1", 0.9, 0.3, 1, SpheroidKind::prolate);
-        in_tube("tube D=0.9 L=0.3 Ca=20 oblate start", 0.9, 0.3, 20, SpheroidKind::oblate);
-        in_tube("tube D=0.9 L=0.3 Ca=40", 0.9, 0.3, 40, SpheroidKind::prolate);
+        in_tube("tube D=1.59 L=1/0.9 Ca=100", 1.59, 1 / 0.9, 100, SpheroidKind::prolate, n);
+        in_tube("tube D=0.9 L=0.3 Ca=1", 0.9, 0.3, 1, SpheroidKind::prolate, n);
+        in_tube("tube D=0.9 L=0.3 Ca=20 oblate start", 0.9, 0.3, 20, SpheroidKind::oblate, n);
+        in_tube("tube D=0.9 L=0.3 Ca=40", 0.9, 0.3, 40, SpheroidKind::prolate, n);
     }
     examples::Report accuracy(directory, "equal_accuracy.csv", "method,modes_or_elements,velocity_error,seconds");
     equal_accuracy(accuracy, settling);
@@ -143,9 +147,11 @@ int main(int argc, char** argv) {
     CLI::App app{"Stationary states by Newton's method against time marching"};
     std::string directory;
     app.add_option("--out", directory, "directory that receives newton.csv and equal_accuracy.csv");
+    bool film = false;
+    app.add_flag("--film", film, "only the vesicle of the paper's Fig. 15, whose film is thin: takes minutes");
     CLI11_PARSE(app, argc, argv);
     try {
-        study(directory);
+        study(directory, film);
     } catch (const std::exception& error) {
         std::cerr << "stationary_study: " << error.what() << '\n';
         return EXIT_FAILURE;

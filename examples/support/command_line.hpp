@@ -12,7 +12,8 @@ namespace examples {
 inline void MethodOptions::add_to(CLI::App& app, bool rigid) {
     const std::string idle = rigid ? "; a rigid body takes one solution in any case" : "";
     app.add_option("--discretization", discretization,
-                   "of the meridian: linear or spectral (default: linear; with --preset-accuracy spectral)");
+                   "of the meridian: linear or spectral (default: " + usual_discretization +
+                       (usual_discretization == "spectral" ? ")" : "; with --preset-accuracy spectral)"));
     app.add_option("--integrator", integrator,
                    std::string("euler, order2, order3, or adaptive: order3 with its step chosen from the tolerance\n"
                                "(default: euler; with --preset-accuracy adaptive)") +
@@ -26,8 +27,8 @@ inline void MethodOptions::add_to(CLI::App& app, bool rigid) {
 
 inline void RunOptions::add_to(CLI::App& app) {
     add_number(app, "--elements", elements,
-               "elements, or modes, on the meridian (default: 64, spectral 32; with --preset-accuracy as many as it "
-               "takes)");
+               "elements, or modes, on the meridian (default: spectral 32, linear 64; with --preset-accuracy as many as "
+               "it takes)");
     add_number(app, "--tolerance", tolerance, "stationary when the residual is below this (default: 1e-5)");
     method.add_to(app);
     add_output_to(app);

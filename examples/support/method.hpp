@@ -18,6 +18,8 @@ namespace examples {
 
 struct MethodOptions {
     std::optional<std::string> discretization;
+    /// Without --discretization and --preset-accuracy.
+    std::string usual_discretization = "spectral";
     std::optional<std::string> integrator;
     std::string stationary = "march";
     std::optional<std::string> preset;
@@ -44,7 +46,7 @@ struct MethodOptions {
         }
     }
 
-    bool spectral() const { return discretization.value_or(preset ? "spectral" : "linear") == "spectral"; }
+    bool spectral() const { return discretization.value_or(preset ? "spectral" : usual_discretization) == "spectral"; }
     bool newton() const { return stationary == "newton"; }
     std::string integrator_name() const { return integrator.value_or(preset ? "adaptive" : "euler"); }
 

@@ -57,6 +57,9 @@ struct PassageOptions {
     axistokes::Index frames = 9;
     std::string directory;
 
+    /// On its way through a throat the shape may need more modes than there are: linear elements.
+    PassageOptions() { method.usual_discretization = "linear"; }
+
     void add_to(CLI::App& app);
 
     double tolerance() const {

@@ -201,25 +201,31 @@ class Scene {
         return radius;
     }
 
-    /// Radial distances from the nodes to the wall; negative if a node is beyond it.
+    /// Radial distances from the meridian to the wall; negative if a node is beyond it.
     FilmThickness<Scalar> film_thickness(const Configuration<Scalar>& configuration) const {
         using std::sqrt;
         FilmThickness<Scalar> film;
         if constexpr (confined) {
             const Meridian<Scalar>& shape = configuration.shape;
             const Scalar wide = shape.r.maxCoeff() * Scalar(0.9);
+            const auto gap = [&](Index i) { return wall_radius(shape.z[i] + configuration.position) - shape.r[i]; };
             Scalar covered = 0;
             Scalar sum = 0;
-            for (Index i = 1; i + 1 < shape.nodes(); ++i) {
-                const Scalar gap = wall_radius(shape.z[i] + configuration.position) - shape.r[i];
-                film.min = std::min(film.min, gap);
-                if (shape.r[i] >= wide) {
-                    const Scalar dr = shape.r[i + 1] - shape.r[i - 1];
-                    const Scalar dz = shape.z[i + 1] - shape.z[i - 1];
-                    const Scalar arc = sqrt(dr * dr + dz * dz);
-                    covered += arc;
-                    sum += arc * gap;
+            for (Index i = 0; i < shape.elements(); ++i) {
+                film.min = std::min(film.min, gap(i + 1));
+                // The part [a, b] of the element, of length 1, that is wide enough.
+                const Scalar first = shape.r[i] - wide;
+                const Scalar last = shape.r[i + 1] - wide;
+                if (first < Scalar(0) && last < Scalar(0)) {
+                    continue;
                 }
+                const Scalar a = first < Scalar(0) ? Scalar(first / (first - last)) : Scalar(0);
+                const Scalar b = last < Scalar(0) ? Scalar(first / (first - last)) : Scalar(1);
+                const Scalar dr = shape.r[i + 1] - shape.r[i];
+                const Scalar dz = shape.z[i + 1] - shape.z[i];
+                const Scalar arc = (b - a) * sqrt(dr * dr + dz * dz);
+                covered += arc;
+                sum += arc * (gap(i) + (gap(i + 1) - gap(i)) * (a + b) / 2);
             }
             film.mean = sum / covered;
         }
