@@ -74,6 +74,21 @@ TEST_CASE("Spectral Newton agrees with marching in a wide tube") {
     agrees_with_marching(0.9, kConfinement, 1, 32);
 }
 
+TEST_CASE("Spectral Newton in a thin film, from the first shape, and its oscillating decay") {
+    const double confinement = 1 / 0.62;
+    const double area = 4 * detail::pi_value<double>() + 3.6;
+    auto narrow = scene(confinement, 100);
+    Solver newton(narrow);
+    const auto state = newton.solve(shape_in_tube<double>(3.6, 0.62, SpheroidKind::prolate, 48), area, kVolume);
+    CHECK(state.residual < 1e-9);
+    CHECK(narrow.film_thickness(state.configuration).min < 0.05);
+    const auto rate = newton.growth_rates(state).front();
+    const auto by_differences = newton.growth_rates(state, 1e-5).front();
+    CHECK(std::abs(rate.imag()) > 1);
+    CHECK(rate.real() == Approx(by_differences.real()).epsilon(0.02));
+    CHECK(std::abs(rate.imag()) == Approx(std::abs(by_differences.imag())).epsilon(0.01));
+}
+
 /// The state at Ca = 1 that a start leads to, and the branch through it in log Ca up to `last`.
 struct Traced {
     double velocity = 0;

@@ -107,9 +107,10 @@ requires(SceneType::deformable) class StationarySolver {
     /// first: the eigenvalues of dw/dphi on these disturbances. The state is stable if all are negative.
     std::vector<std::complex<Scalar>> growth_rates(const State& state) {
         const auto frozen = scene_.freeze(state.configuration);
+        SceneType accurate = detail::loosened_scene(scene_, rates_quadrature());
         const auto rates_with = [&](Index degree) {
             detail::MobilityChange<SceneType> change;
-            find(change, state.configuration, state.instant, degree);
+            change.find(accurate, state.configuration, state.instant.solution.force, degree, degree + 1, true);
             return detail::growth_rates<Scalar>(
                 state.instant.surface, state.configuration.shape.z,
                 detail::velocity_jacobian(scene_, frozen, state.configuration, state.instant,
@@ -152,6 +153,7 @@ requires(SceneType::deformable) class StationarySolver {
     /// For growth rates the degree is raised from this one until the leading rate changes by less than the accuracy.
     static constexpr Index coarsest_rates = 20;
     static Scalar rates_accuracy() { return Scalar(0.01); }
+    static Scalar rates_quadrature() { return Scalar(1e-7); }
     /// Displacement after which the mobility's change is found again, in R0.
     static Scalar stale_change() { return Scalar(0.1); }
 
@@ -247,8 +249,7 @@ requires(SceneType::deformable) class StationarySolver {
                 const bool hardly = !(trial.residual < point.residual / 2);
                 point = std::move(trial);
                 linearisation.travelled += length + (moved ? stale_change() / 2 : Scalar(0));
-                if (!(point.residual < tolerance) &&
-                    (moved || (stale && (!short_step || refine(length, hardly))))) {
+                if (!(point.residual < tolerance) && (moved || (stale && (!short_step || refine(length, hardly))))) {
                     renew(degree);
                 }
                 limit = std::min(params_.largest_displacement, Scalar(2 * limit));

@@ -25,12 +25,13 @@ void displace(Meridian<S>& shape, const Surface& surface, const Vector<S>& displ
 }
 
 /// Change of the velocity G f + (what walls add to the flow) at the nodes, f fixed, with the amplitudes of the first
-/// modes cos(kt) of the normal displacement: 2n x modes. One-sided differences, an assembly for each mode.
+/// modes cos(kt) of the normal displacement: 2n x modes. Differences, one-sided or central: an assembly for each mode,
+/// or two.
 template <class SceneType>
 Matrix<typename SceneType::Scalar> mobility_change(SceneType& scene,
                                                    const Configuration<typename SceneType::Scalar>& configuration,
                                                    const Vector<typename SceneType::Scalar>& force, Index modes,
-                                                   const typename SceneType::Scalar& step) {
+                                                   const typename SceneType::Scalar& step, bool central) {
     using std::cos;
     using S = typename SceneType::Scalar;
     const Index n = configuration.shape.nodes();
@@ -53,9 +54,16 @@ Matrix<typename SceneType::Scalar> mobility_change(SceneType& scene,
         for (Index i = 0; i < n; ++i) {
             mode[i] = step * cos(pi_value<S>() * S(k * i % (2 * (n - 1))) / S(n - 1));
         }
-        Configuration<S> moved = configuration;
-        displace<S>(moved.shape, surface, mode);
-        change.col(k) = (velocity(moved, moved_surface) - here) / step;
+        const auto displaced = [&](const S& factor) {
+            Configuration<S> moved = configuration;
+            displace<S>(moved.shape, surface, factor * mode);
+            return velocity(moved, moved_surface);
+        };
+        if (central) {
+            change.col(k) = (displaced(S(1)) - displaced(S(-1))) / (2 * step);
+        } else {
+            change.col(k) = (displaced(S(1)) - here) / step;
+        }
     }
     return change;
 }
@@ -69,16 +77,17 @@ class MobilityChange {
 
     Index degree() const { return degree_; }
 
-    /// An assembly with `degree` modes for each of the first `modes` modes of the displacement.
+    /// An assembly with `degree` modes for each of the first `modes` modes of the displacement; two with `central`
+    /// differences, which a film no thicker than some hundred of their steps asks for.
     void find(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force, Index degree,
-              Index modes) {
+              Index modes, bool central = false) {
         degree_ = degree;
         const Index n = configuration.shape.nodes();
         const auto down = SeriesTransfer<S>::between(n - 1, degree);
         const Configuration<S> there{resampled(configuration.shape, degree), configuration.position, {}};
         Vector<S> coarse_force(2 * (degree + 1));
         coarse_force << down->odd * force.head(n), down->even * force.tail(n);
-        change_ = mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>());
+        change_ = mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>(), central);
     }
 
     /// 2n x n, after find().
