@@ -26,9 +26,10 @@ inline void MethodOptions::add_to(CLI::App& app, bool rigid) {
 }
 
 inline void RunOptions::add_to(CLI::App& app) {
-    add_number(app, "--elements", elements,
-               "elements, or modes, on the meridian (default: spectral 32, linear 64; with --preset-accuracy as many as "
-               "it takes)");
+    add_number(
+        app, "--elements", elements,
+        "elements, or modes, on the meridian (default: spectral 32, linear 64; with --preset-accuracy as many as "
+        "it takes)");
     add_number(app, "--tolerance", tolerance, "stationary when the residual is below this (default: 1e-5)");
     method.add_to(app);
     add_output_to(app);
