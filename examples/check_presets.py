@@ -9,6 +9,7 @@ one of velocity and length), the number of elements and the seconds. Exact value
 import argparse
 import json
 import pathlib
+import shlex
 import subprocess
 import sys
 
@@ -38,6 +39,8 @@ scene("7: unbounded flow", "poiseuille_vesicle", excess_area=0.6, unbounded_capi
 for volume, kind in (("0.8", "prolate"), ("0.65", "oblate")):
     scene(f"relaxation to v = {volume}, {kind}", "relaxing_vesicle", reduced_volume=volume, initial=kind)
 scene("14: D = 1.59, Rc = 0.9", "poiseuille_vesicle", excess_area=1.59, confinement=ratio("1/0.9"))
+scene("15: D = 4.8, Rc = 0.55", "poiseuille_vesicle", excess_area=4.8, confinement=ratio("1/0.55"),
+      stationary="newton")  # marching takes a quarter of an hour
 for kind in ("prolate", "oblate"):
     scene(f"16: D = 0.2, L = 0.5, {kind}", "poiseuille_vesicle", excess_area=0.2, confinement=0.5, initial=kind)
 for ca, kind in ((1, "prolate"), (1, "oblate"), (10, "prolate"), (10, "oblate"), (100, "prolate")):
@@ -54,6 +57,11 @@ for radius in ("10", "5", "2", "1.15"):
           confinement=ratio("1/" + radius))
 
 
+def plain(text):
+    """As a directory's name."""
+    return "".join(c if c.isalnum() or c in ".-" else "_" for c in text)
+
+
 class Checker:
     def __init__(self, arguments):
         self.arguments = arguments
@@ -62,15 +70,19 @@ class Checker:
     def run(self, name, preset, **more):
         """The summary, or None for a run that failed or took too long."""
         program, options, _ = SCENES[name]
-        directory = self.work / "".join(c if c.isalnum() or c in ".-" else "_" for c in name) / preset
+        directory = self.work / plain(name) / preset
         if more.get("elements"):
             directory = directory.with_name(preset + "_finer")
+        added = [] if preset == "reference" else shlex.split(self.arguments.other)
+        if added:
+            directory = directory.with_name(preset + plain("".join(added)))
         vesicle = program.endswith("_vesicle")
         words = [str(pathlib.Path(self.arguments.bin) / program), "--preset-accuracy", preset, "--out", str(directory)]
         for key, value in {**options, **more}.items():
             words += ["--" + key.replace("_", "-"), str(value)]
-        if vesicle and "time" not in options:
+        if vesicle and "time" not in options and "stationary" not in options:
             words += ["--stationary", self.arguments.stationary]
+        words += added
         summary = directory / "summary.json"
         if not (self.arguments.reuse and summary.exists()):
             summary.unlink(missing_ok=True)
@@ -105,9 +117,10 @@ class Checker:
                 continue
             error = self.error(name, summary, other)
             held = error <= promised
-            good = good and held
+            good = good and (held or not summary["error_met"])
             state = "" if summary["stationary"] or "time" in SCENES[name][1] else " (not stationary)"
-            cells += [f"{error:.1e}" + ("" if held else " **missed**") + state, str(summary["elements"]),
+            missed = "" if held else " missed, as reported" if not summary["error_met"] else " **missed**"
+            cells += [f"{error:.1e}" + missed + state, str(summary["elements"]),
                       f"{summary['wall_seconds']:.2g}"]
         if best and "stable" in best:
             cells.append("yes" if best["stable"] else "no")
@@ -122,6 +135,8 @@ def main():
     parser.add_argument("--bin", default="build/examples", help="directory of the programs (default: build/examples)")
     parser.add_argument("--work", default="build/presets", help="directory for the runs (default: build/presets)")
     parser.add_argument("--stationary", default="march", help="march or newton (default: march)")
+    parser.add_argument("--other", default="", metavar="OPTIONS",
+                        help="of the programs, for fast and balanced: '--discretization linear', '--method wall'")
     parser.add_argument("--timeout", type=float, default=240, help="seconds a run may take (default: 240)")
     parser.add_argument("--reuse", action="store_true", help="take runs that are in --work already")
     arguments = parser.parse_args()
