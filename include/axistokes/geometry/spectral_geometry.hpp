@@ -29,10 +29,6 @@ struct SpectralMeshingParams {
     S largest_distortion = S(1.2);
 };
 
-namespace detail {
-
-}  // namespace detail
-
 /// A meridian and its derivatives with respect to t, at the nodes or at the points of a Sampling.
 template <class S>
 struct SpectralCurve {
@@ -226,9 +222,7 @@ class SpectralGeometry {
     }
 
     /// The same series with `elements` + 1 nodes, cut off or continued by 0: the nodes keep their relative spacing.
-    Meridian<S> resampled(const Meridian<S>& shape, Index elements) const {
-        return detail::resampled(shape, elements);
-    }
+    Meridian<S> resampled(const Meridian<S>& shape, Index elements) const { return detail::resampled(shape, elements); }
 
   private:
     /// The wanted number of nodes per unit of t, up to a factor: by curvature, smoothed along the arc.
