@@ -296,8 +296,7 @@ def two_branches(g):
 def both_starts(g, area, confinement, ca):
     """A label and the runs from the prolate and from the oblate spheroid."""
     runs = [g.run(f"start_{kind}_{area}_{confinement}_{ca}", "poiseuille_vesicle", excess_area=area,
-                  confinement=confinement, capillary_number=ca, elements=48, initial=kind,
-                  tolerance=1e-8)
+                  confinement=confinement, capillary_number=ca, elements=48, initial=kind, tolerance=1e-8)
             for kind in ("prolate", "oblate")]
     return f"D = {area}, R0/Rc = {confinement}, Ca = {ca}", runs
 

@@ -71,7 +71,7 @@ requires(SceneType::deformable) class StationaryBranch {
         detail::MobilityChange<SceneType> change;
         SceneType coarse = detail::loosened_scene(*point.scene, Scalar(1e-4));
         const Index degree = std::min(params_.change_degree, n - 1);
-        change.find(coarse, configuration, point.state.instant.solution.force, degree, (3 * degree) / 4);
+        change.find(coarse, configuration, point.state.instant.solution.force, degree);
         Matrix<Scalar> derivative(n + 3, n + 4);
         derivative.leftCols(n + 3) =
             detail::bordered<Scalar>(surface, configuration.shape.z,

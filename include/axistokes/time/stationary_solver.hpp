@@ -40,7 +40,8 @@ struct StationaryState {
     Configuration<S> configuration;
     InstantType instant;
     S residual{};
-    /// Leading growth rate by the last Jacobian, to a few per cent; NaN if none was needed, or only_stable is not set.
+    /// Leading growth rate by the last Jacobian: to a few per cent, but in thin films wrong by a factor, unlike those
+    /// of growth_rates(); NaN if none was needed, or only_stable is not set.
     S growth = std::numeric_limits<S>::quiet_NaN();
     Index iterations = 0;
     Index evaluations = 0;         // with all modes
@@ -110,7 +111,7 @@ requires(SceneType::deformable) class StationarySolver {
         SceneType accurate = detail::loosened_scene(scene_, rates_quadrature());
         const auto rates_with = [&](Index degree) {
             detail::MobilityChange<SceneType> change;
-            change.find(accurate, state.configuration, state.instant.solution.force, degree, degree + 1, true);
+            change.find_accurately(accurate, state.configuration, state.instant.solution.force, degree);
             return detail::growth_rates<Scalar>(
                 state.instant.surface, state.configuration.shape.z,
                 detail::velocity_jacobian(scene_, frozen, state.configuration, state.instant,
@@ -162,11 +163,6 @@ requires(SceneType::deformable) class StationarySolver {
         Scalar travelled = std::numeric_limits<Scalar>::max();  // since then, in R0
     };
 
-    void find(detail::MobilityChange<SceneType>& change, const Configuration<Scalar>& configuration,
-              const InstantType& instant, Index degree) {
-        change.find(coarse_, configuration, instant.solution.force, degree, (3 * degree) / 4);
-    }
-
     /// From `shape` to the stationary state of `scene`; counts what it takes, also when it fails.
     void iterate(SceneType& scene, const Meridian<Scalar>& shape, const Scalar& area, const Scalar& volume,
                  const Scalar& tolerance, Linearisation& linearisation, State& state) {
@@ -183,7 +179,7 @@ requires(SceneType::deformable) class StationarySolver {
         Scalar growth = 0;
         const auto renew = [&](Index degree) {
             if (linearisation.travelled > stale_change() || degree > linearisation.change.degree()) {
-                find(linearisation.change, point.configuration, point.instant, degree);
+                linearisation.change.find(coarse_, point.configuration, point.instant.solution.force, degree);
                 linearisation.travelled = 0;
                 ++state.mobility_changes;
             }

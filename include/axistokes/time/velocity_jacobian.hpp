@@ -77,20 +77,17 @@ class MobilityChange {
 
     Index degree() const { return degree_; }
 
-    /// An assembly with `degree` modes for each of the first `modes` modes of the displacement; two with `central`
-    /// differences, which a film no thicker than some hundred of their steps asks for.
-    void find(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force, Index degree,
-              Index modes, bool central = false) {
-        degree_ = degree;
-        const Index n = configuration.shape.nodes();
-        const auto down = SeriesTransfer<S>::between(n - 1, degree);
-        const Configuration<S> there{resampled(configuration.shape, degree), configuration.position, {}};
-        Vector<S> coarse_force(2 * (degree + 1));
-        coarse_force << down->odd * force.head(n), down->even * force.tail(n);
-        change_ = mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>(), central);
+    /// For an iteration: one-sided differences, the first three quarters of the modes.
+    void find(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force, Index degree) {
+        find(coarse, configuration, force, degree, (3 * degree) / 4, false);
+    }
+    /// For growth rates, in films no thicker than some hundred steps of the differences too: central ones, all modes.
+    void find_accurately(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force,
+                         Index degree) {
+        find(coarse, configuration, force, degree, degree + 1, true);
     }
 
-    /// 2n x n, after find().
+    /// 2n x n, once found.
     Matrix<S> at_nodes(Index n) const {
         const auto up = SeriesTransfer<S>::between(degree_, n - 1);
         const auto down = SeriesTransfer<S>::between(n - 1, degree_);
@@ -101,6 +98,17 @@ class MobilityChange {
     }
 
   private:
+    void find(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force, Index degree,
+              Index modes, bool central) {
+        degree_ = degree;
+        const Index n = configuration.shape.nodes();
+        const auto down = SeriesTransfer<S>::between(n - 1, degree);
+        const Configuration<S> there{resampled(configuration.shape, degree), configuration.position, {}};
+        Vector<S> coarse_force(2 * (degree + 1));
+        coarse_force << down->odd * force.head(n), down->even * force.tail(n);
+        change_ = mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>(), central);
+    }
+
     Index degree_ = 0;
     Matrix<S> change_;
 };
