@@ -11,14 +11,13 @@ void examples::PassageOptions::add_to(CLI::App& app) {
     add_number(app, "--transition", transition, "length of the narrowing, and of the widening behind");
     add_number(app, "--excess-area", excess_area, "area of the membrane minus 4 pi, in R0^2");
     add_number(app, "--flow-rate", flow_rate, "flow rate, in R0 kappa/eta, > 0");
-    add_number(app, "--tolerance", wall_tolerance, "relative error allowed of the wall (default: 1e-4)");
+    add_number(app, "--tolerance", wall_tolerance, "relative error allowed of the wall (default: by the preset, 1e-3)");
     add_number(app, "--displacement", displacement,
                "largest normal displacement in a time step, in R0, by integrators without an error estimate");
     add_number(app, "--step-tolerance", step_tolerance,
-               "error allowed in a time step, in R0, by integrators with one (default: 1e-4)");
+               "error allowed in a time step, in R0, by integrators with one (default: by the preset, 2.5e-4)");
     add_number(app, "--elements", elements,
-               "elements, or modes, on the meridian (default: 80, spectral 48; with --preset-accuracy spectral as "
-               "many as it takes)");
+               "elements, or modes, on the meridian (default: linear 80; spectral as many as it takes, from 48 on)");
     method.add_to(app);
     add_number(app, "--max-steps", most_steps, "give up after this many steps");
     add_number(app, "--frames", frames, "shapes to keep, evenly along the way");

@@ -72,6 +72,30 @@ TEST_CASE("Automatic steps end exactly at the longest time") {
     }
 }
 
+TEST_CASE("Automatic steps end exactly at the landing times, and go on as they were") {
+    for (const int order : {1, 3}) {
+        SimulationParams<double> params;
+        params.longest_time = 0.05;
+        params.landing_times = {0.03, 0.0123, 0, 0.1};
+        auto simulator = settling(order, params);
+        simulator.run();
+        std::vector<double> met;
+        for (const auto& record : simulator.history()) {
+            if (record.time == 0.03 || record.time == 0.0123) {
+                met.push_back(record.time);
+            }
+        }
+        CHECK(met == std::vector<double>{0.0123, 0.03});
+        params.landing_times.clear();
+        auto free = settling(order, params);
+        free.run();
+        CHECK(simulator.history().size() <= free.history().size() + 2);
+    }
+    SimulationParams<double> params;
+    params.landing_times = {-1};
+    CHECK(refusal([&] { settling(1, params); }) == "landing time = -1: must be >= 0 and finite");
+}
+
 TEST_CASE("A refined simulation goes on from the same shape") {
     SimulationParams<double> params;
     params.longest_time = 0.01;

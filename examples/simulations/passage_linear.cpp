@@ -2,5 +2,5 @@
 #include "../support/passage_run.hpp"
 
 int examples::pass_linear(const PassageOptions& options) {
-    return pass<LinearElements>(options);
+    return PassageRun<LinearElements>(options)();
 }

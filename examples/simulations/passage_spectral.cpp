@@ -2,5 +2,5 @@
 #include "../support/passage_run.hpp"
 
 int examples::pass_spectral(const PassageOptions& options) {
-    return pass<SpectralMeridian>(options);
+    return PassageRun<SpectralMeridian>(options)();
 }

@@ -11,18 +11,18 @@ namespace examples {
 
 inline void MethodOptions::add_to(CLI::App& app, bool rigid) {
     const std::string idle = rigid ? "; a rigid body takes one solution in any case" : "";
-    app.add_option("--discretization", discretization,
-                   "of the meridian: linear or spectral (default: " + usual_discretization +
-                       (usual_discretization == "spectral" ? ")" : "; with --preset-accuracy spectral)"));
+    app.add_option("--discretization", discretization, "of the meridian: linear or spectral (default: spectral)");
     app.add_option("--integrator", integrator,
                    std::string("euler, order2, order3, or adaptive: order3 with its step chosen from the tolerance\n"
-                               "(default: euler; with --preset-accuracy adaptive)") +
+                               "(default: euler to a stationary state; adaptive where the way matters, and with\n"
+                               "--preset-accuracy)") +
                        idle);
     app.add_option("--stationary", stationary,
                    std::string("march in time to the stationary state, or newton after a few time steps") + idle)
         ->capture_default_str();
     app.add_option("--preset-accuracy", preset,
-                   "fast (1e-3), balanced (1e-6) or reference (1e-10): every tolerance and the number of elements");
+                   "fast (1e-3), balanced (1e-6) or reference (1e-10): every tolerance and the number of elements" +
+                       (preset ? " (default: " + *preset + ")" : std::string()));
 }
 
 inline void RunOptions::add_to(CLI::App& app) {
@@ -38,8 +38,9 @@ inline void RunOptions::add_to(CLI::App& app) {
                "error allowed in a time step, in R0, by integrators that estimate it (default: 1e-4)");
     add_number(app, "--time", time, "stop at this time, stationary or not");
     add_number(app, "--max-steps", steps, "stop after this many steps, stationary or not");
-    app.add_option("--frame-times", frame_times,
-                   "t1,t2,...: also write frames.csv, the first shape at or after each of these times")
+    app.add_option(
+           "--frame-times", frame_times,
+           "t1,t2,...: also write frames.csv, the shapes at these times (with --dt the first ones at or after them)")
         ->delimiter(',')
         ->check(number_check<double>("--frame-times"));
 }

@@ -18,9 +18,9 @@ namespace examples {
 
 struct MethodOptions {
     std::optional<std::string> discretization;
-    /// Without --discretization and --preset-accuracy.
-    std::string usual_discretization = "spectral";
     std::optional<std::string> integrator;
+    /// Without --integrator and --preset-accuracy.
+    std::string usual_integrator = "euler";
     std::string stationary = "march";
     std::optional<std::string> preset;
 
@@ -46,9 +46,9 @@ struct MethodOptions {
         }
     }
 
-    bool spectral() const { return discretization.value_or(preset ? "spectral" : usual_discretization) == "spectral"; }
+    bool spectral() const { return discretization.value_or("spectral") == "spectral"; }
     bool newton() const { return stationary == "newton"; }
-    std::string integrator_name() const { return integrator.value_or(preset ? "adaptive" : "euler"); }
+    std::string integrator_name() const { return integrator.value_or(preset ? "adaptive" : usual_integrator); }
 
     axistokes::ExtrapolatedEulerOfOrder steps() const {
         const std::string name = integrator_name();

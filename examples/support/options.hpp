@@ -44,10 +44,22 @@ struct RunOptions {
     /// Whether the way matters and not only where it ends.
     bool transient() const { return time.has_value() || !frame_times.empty(); }
 
+    /// With the integrator that wins where none was chosen: extrapolation, if the way matters.
+    RunOptions resolved() const {
+        RunOptions options = *this;
+        if (transient() && !time_step) {
+            options.method.usual_integrator = "adaptive";
+        }
+        return options;
+    }
+
     axistokes::SimulationParams<double> params() const {
         method.check();
         axistokes::detail::require(!(method.newton() && time), "--time", time.value_or(0),
                                    "absent with --stationary newton, which leads to no given time");
+        for (const double frame_time : frame_times) {
+            axistokes::detail::require(frame_time >= 0, "--frame-times", frame_time, ">= 0");
+        }
         if (method.integrator_name() == "adaptive" && time_step) {
             const bool chosen = method.integrator.has_value();
             axistokes::detail::require(false, "--dt", *time_step,
@@ -63,6 +75,7 @@ struct RunOptions {
         params.step_tolerance = step_tolerance.value_or(params.step_tolerance);
         params.time_step = time_step;
         params.longest_time = time.value_or(params.longest_time);
+        params.landing_times = frame_times;
         params.most_steps = steps.value_or(params.most_steps);
         return params;
     }

@@ -57,15 +57,11 @@ struct PassageOptions {
     axistokes::Index frames = 9;
     std::string directory;
 
-    /// On its way through a throat the shape may need more modes than there are: linear elements.
-    PassageOptions() { method.usual_discretization = "linear"; }
+    PassageOptions() { method.preset = "fast"; }
 
     void add_to(CLI::App& app);
 
-    double tolerance() const {
-        const auto accuracy = method.accuracy();
-        return wall_tolerance.value_or(accuracy ? accuracy->wall : 1e-4);
-    }
+    double tolerance() const { return wall_tolerance.value_or(method.accuracy()->wall); }
 
     Channel channel() const {
         if (profile == "pore") {

@@ -17,11 +17,19 @@
 #include <axistokes/wall/passage.hpp>
 #include <axistokes/wall/wall_mesh.hpp>
 
+#include <boost/math/interpolators/barycentric_rational.hpp>
+#include <boost/math/tools/roots.hpp>
+
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -62,170 +70,252 @@ inline Vector<double> wall_radii(const Channel& profile, const Vector<double>& z
     return r;
 }
 
+/// Where the vesicle was when: its foremost and rearmost points.
+class Track {
+  public:
+    void add(double time, const Meridian<double>& shape) {
+        time_.push_back(time);
+        front_.push_back(shape.z.maxCoeff());
+        rear_.push_back(shape.z.minCoeff());
+    }
+
+    /// From the front at `begin` to the rear at `end`; nothing if it did not get there.
+    std::optional<double> time_between(double begin, double end) const {
+        const auto entered = first_beyond(begin, front_);
+        const auto left = first_beyond(end, rear_);
+        if (!entered || !left) {
+            return std::nullopt;
+        }
+        return *left - *entered;
+    }
+
+  private:
+    /// When `z` first passes `mark`: by the cubic polynomial through the two instants before and the two after.
+    std::optional<double> first_beyond(double mark, const std::vector<double>& z) const {
+        const auto after = std::find_if(z.begin(), z.end(), [&](double now) { return now > mark; }) - z.begin();
+        const auto count = static_cast<std::ptrdiff_t>(z.size());
+        constexpr std::ptrdiff_t points = 4;
+        if (after == 0 || after == count || count < points) {
+            return std::nullopt;
+        }
+        const std::ptrdiff_t first = std::clamp<std::ptrdiff_t>(after - points / 2, 0, count - points);
+        const boost::math::barycentric_rational<double> position(time_.data() + first, z.data() + first, points,
+                                                                 points - 1);
+        const auto crossing = boost::math::tools::bisect(
+            [&](double time) { return position(time) - mark; }, time_[static_cast<std::size_t>(after - 1)],
+            time_[static_cast<std::size_t>(after)], boost::math::tools::eps_tolerance<double>());
+        return crossing.first;
+    }
+
+    std::vector<double> time_, front_, rear_;
+};
+
 template <class Discretization>
-int pass(const PassageOptions& options) {
-    const Channel profile = options.channel();
-    const auto accuracy = options.method.accuracy();
-    constexpr bool spectral = judges_itself<Discretization>;
-    const auto discretization = discretization_for<Discretization>(accuracy);
-    const bool adapts = spectral && accuracy && !options.elements;
-    const auto initial = [&](Index elements) {
-        return axistokes::spheroid_of_excess_area<double>(options.excess_area, axistokes::SpheroidKind::prolate,
-                                                          elements);
-    };
-    Meridian<double> shape = nodes_of(discretization, initial, options.elements.value_or(spectral ? 48 : 80));
-    const axistokes::Measures<double> measures = discretization.measures(shape);
-    axistokes::require_passage(profile, measures.area, measures.volume);
+class PassageRun {
+    static constexpr bool spectral = judges_itself<Discretization>;
+    static constexpr double unresolved_to_error = axistokes::Accuracy<double>::unresolved_to_error;
 
-    // The vesicle starts a radius upstream of where the channel begins to narrow, and ends as far downstream.
-    const double start = profile.begin() - options.wide - shape.z.maxCoeff();
-    shape.z.array() += start;
-    axistokes::WallMeshParams<double> wall;
-    wall.flow_rate = options.flow_rate;
-    wall.tolerance = options.tolerance();
-    double unresolved = 0;
-    axistokes::SimulationParams<double> params;
-    params.largest_displacement = options.displacement;
-    params.step_tolerance = options.step_tolerance.value_or(accuracy ? accuracy->step : params.step_tolerance);
-    Passage<Discretization> simulator(shape, {}, params, {}, discretization, {}, options.method.steps(), {},
-                                      axistokes::WallMesh<Channel>(profile, wall));
-    const auto resolve = [&] {
-        if constexpr (spectral) {
-            const Meridian<double>& now = simulator.configuration().shape;
-            const double share = adapts ? discretization.unresolved(now) : 0;
-            if (adapts && share > accuracy->unresolved && now.elements() < most_elements<Discretization>) {
-                simulator.refine(
-                    more_modes(now.elements(), share, accuracy->unresolved, most_elements<Discretization>));
-            }
-            unresolved = std::max(unresolved, discretization.unresolved(simulator.configuration().shape));
-        }
-    };
-    if (!options.directory.empty()) {
-        axistokes::create_output_directory(options.directory);
+  public:
+    explicit PassageRun(const PassageOptions& options)
+        : options_(options),
+          profile_(options.channel()),
+          accuracy_(*options.method.accuracy()),
+          discretization_(discretization_for<Discretization>(options.method.accuracy())) {
+        Meridian<double> shape = initial_shape();
+        measures_ = discretization_.measures(shape);
+        axistokes::require_passage(profile_, measures_.area, measures_.volume);
+        // It starts a radius upstream of where the channel begins to narrow, and ends as far downstream.
+        start_ = profile_.begin() - options.wide - shape.z.maxCoeff();
+        shape.z.array() += start_;
+        axistokes::WallMeshParams<double> wall;
+        wall.flow_rate = options.flow_rate;
+        wall.tolerance = options.tolerance();
+        axistokes::SimulationParams<double> params;
+        params.largest_displacement = options.displacement;
+        params.step_tolerance = options.step_tolerance.value_or(accuracy_.step);
+        simulator_.emplace(shape, axistokes::Quiescent<double>{}, params, axistokes::FreeSpaceKernel<double>{},
+                           discretization_, Vesicle<Discretization>{}, options.method.steps(),
+                           axistokes::DenseLU<double>{}, axistokes::WallMesh<Channel>(profile_, wall));
     }
 
-    Frames frames;
-    std::vector<double> entered_or_left;
-    double film = std::numeric_limits<double>::infinity();
-    double drop = 0;
-    double deviation = 0;
-    std::string failure;
-    bool passed = false;
-    bool stopped = false;
-    constexpr double stuck = 1e-4;  // velocity over that of the flow in the throat
-    const auto begin = std::chrono::steady_clock::now();
-    {
-        const InterruptGuard guard;
-        ProgressBar bar;
+    int operator()() {
+        if (!options_.directory.empty()) {
+            axistokes::create_output_directory(options_.directory);
+        }
+        const auto begin = std::chrono::steady_clock::now();
+        {
+            const InterruptGuard guard;
+            ProgressBar bar;
+            try {
+                advance(guard, bar);
+            } catch (const axistokes::SimulationFailure& error) {
+                failure_ = error.what();
+            }
+        }
+        keep_frame();
+        seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return conclude();
+    }
+
+  private:
+    Meridian<double> initial_shape() const {
+        const auto spheroid = [&](Index elements) {
+            return axistokes::spheroid_of_excess_area<double>(options_.excess_area, axistokes::SpheroidKind::prolate,
+                                                              elements);
+        };
+        return nodes_of(discretization_, spheroid, options_.elements.value_or(spectral ? 48 : 80));
+    }
+
+    double time() const { return simulator_->history().empty() ? 0 : simulator_->history().back().time; }
+    double position() const { return simulator_->configuration().position; }
+
+    void advance(const InterruptGuard& guard, ProgressBar& bar) {
         Index kept = 0;
-        try {
-            for (Index step = 0; step < options.most_steps && !passed && !guard.interrupted(); ++step) {
-                const double position = simulator.configuration().position;
-                const double way = (position - start) / (-2 * start);
-                const double time = simulator.history().empty() ? 0 : simulator.history().back().time;
-                if (way * static_cast<double>(options.frames - 1) >= static_cast<double>(kept)) {
-                    frames.add(time, drawn_curve(discretization, simulator.shape()));
-                    deviation = std::max(deviation, flow_rate_deviation(simulator, options.flow_rate));
-                    ++kept;
-                }
-                const auto record = simulator.step();
-                resolve();
-                film = std::min(film, record.film_thickness_min);
-                drop = std::max(drop, record.pressure_drop);
-                const Meridian<double> now = simulator.shape();
-                const bool inside = now.z.maxCoeff() > profile.begin();
-                const bool outside = now.z.minCoeff() > profile.end();
-                if ((inside && entered_or_left.empty()) || (outside && entered_or_left.size() == 1)) {
-                    entered_or_left.push_back(record.time);
-                }
-                passed = record.position >= -start;
-                if (std::abs(record.velocity) < stuck * simulator.scene().velocity_scale()) {
-                    throw axistokes::SimulationFailure(
-                        "the vesicle is stuck at z = " + std::to_string(record.position) +
-                        ": this flow rate does not press it through the throat");
-                }
-                const auto neck = thinnest_neck(now);
-                if (neck && neck->radius < neck->element / 2) {
-                    std::ostringstream cause;
-                    cause << "the membrane pinches off at z = " << neck->z << ": the radius of its neck, "
-                          << neck->radius << ", is less than half of an element there";
-                    throw axistokes::SimulationFailure(cause.str());
-                }
-                std::ostringstream text;
-                text << "step " << record.step << "  z " << record.position << "  film " << record.film_thickness_min;
-                bar.show(way, text.str());
+        track_.add(0, simulator_->shape());
+        while (position() < -start_ && !guard.interrupted()) {
+            if (static_cast<Index>(simulator_->history().size()) >= options_.most_steps) {
+                throw axistokes::SimulationFailure("not through after " + std::to_string(options_.most_steps) +
+                                                   " steps: the centroid is at z = " + std::to_string(position()));
             }
-        } catch (const axistokes::SimulationFailure& error) {
-            failure = error.what();
+            const double way = (position() - start_) / (-2 * start_);
+            if (way * static_cast<double>(options_.frames - 1) >= static_cast<double>(kept)) {
+                keep_frame();
+                ++kept;
+            }
+            const auto record = simulator_->step();
+            resolve();
+            track_.add(record.time, simulator_->shape());
+            film_ = std::min(film_, record.film_thickness_min);
+            drop_ = std::max(drop_, record.pressure_drop);
+            require_passable(record.velocity);
+            std::ostringstream text;
+            text << "step " << record.step << "  z " << record.position << "  film " << record.film_thickness_min;
+            bar.show(way, text.str());
         }
-        stopped = guard.interrupted();
+        passed_ = position() >= -start_;
     }
-    if (!passed && !stopped && failure.empty()) {
-        failure = "not through after " + std::to_string(options.most_steps) +
-                  " steps: the centroid is at z = " + std::to_string(simulator.configuration().position);
-    }
-    frames.add(simulator.history().empty() ? 0 : simulator.history().back().time,
-               drawn_curve(discretization, simulator.shape()));
-    deviation = std::max(deviation, flow_rate_deviation(simulator, options.flow_rate));
 
-    nlohmann::ordered_json summary;
-    summary["passed"] = passed;
-    if (entered_or_left.size() == 2) {
-        summary["transit_time"] = entered_or_left[1] - entered_or_left[0];
-        // Of the fluid alone, at the mean velocity of each section.
-        constexpr Index samples = 2000;
-        const Vector<double> z = Vector<double>::LinSpaced(samples, profile.begin(), profile.end());
-        const double section = wall_radii(profile, z).array().square().mean() * std::acos(-1.0);
-        summary["transit_time_of_fluid"] = section * (profile.end() - profile.begin()) / options.flow_rate;
+    void keep_frame() {
+        frames_.add(time(), drawn_curve(discretization_, simulator_->shape()));
+        deviation_ = std::max(deviation_, flow_rate_deviation(*simulator_, options_.flow_rate));
     }
-    summary["smallest_film"] = film;
-    summary["largest_pressure_drop"] = drop;
-    summary["critical_tube_radius"] = axistokes::critical_tube_radius(measures.area, measures.volume);
-    summary["critical_orifice_radius"] = axistokes::critical_orifice_radius(measures.area, measures.volume);
-    if (!simulator.history().empty()) {
-        const auto& last = simulator.history().back();
-        summary["area_drift"] = last.area_drift;
-        summary["volume_drift"] = last.volume_drift;
-        summary["steps"] = last.step;
-        summary["time"] = last.time;
-    }
-    summary["elements"] = simulator.configuration().shape.elements();
-    options.method.describe(summary);
-    if constexpr (spectral) {
-        // Largest on the way, of the shape; the time steps' errors come on top.
-        summary["error_estimate"] = unresolved / axistokes::Accuracy<double>::unresolved_to_error;
-        if (accuracy) {
-            summary["error_met"] = unresolved / axistokes::Accuracy<double>::unresolved_to_error <= accuracy->eps;
+
+    /// More modes as soon as the shape needs them.
+    void resolve() {
+        if constexpr (spectral) {
+            const Meridian<double>& now = simulator_->configuration().shape;
+            if (!options_.elements && now.elements() < most_elements<Discretization>) {
+                const double share = discretization_.unresolved(now);
+                if (share > accuracy_.unresolved) {
+                    simulator_->refine(
+                        more_modes(now.elements(), share, accuracy_.unresolved, most_elements<Discretization>));
+                }
+            }
+            unresolved_ = std::max(unresolved_, discretization_.unresolved(simulator_->configuration().shape));
         }
     }
-    summary["flow_rate_deviation"] = deviation;
-    summary["wall_nodes"] = simulator.scene().wall().mesh()->curve().size();
-    summary["wall_meshes"] = simulator.scene().wall().meshes();
-    summary["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (!failure.empty()) {
-        summary["failure"] = failure;
+
+    /// Throws SimulationFailure for a vesicle that does not move on, or whose membrane is about to pinch off.
+    void require_passable(double velocity) const {
+        constexpr double stuck = 1e-4;  // velocity over that of the flow in the throat
+        if (std::abs(velocity) < stuck * simulator_->scene().velocity_scale()) {
+            throw axistokes::SimulationFailure("the vesicle is stuck at z = " + std::to_string(position()) +
+                                               ": this flow rate does not press it through the throat");
+        }
+        const auto neck = thinnest_neck(simulator_->shape());
+        if (neck && neck->radius < neck->element / 2) {
+            std::ostringstream cause;
+            cause << "the membrane pinches off at z = " << neck->z << ": the radius of its neck, " << neck->radius
+                  << ", is less than half of an element there";
+            throw axistokes::SimulationFailure(cause.str());
+        }
     }
-    summary["parameters"] = options.parameters();
-    if (!options.directory.empty()) {
-        const std::filesystem::path directory(options.directory);
-        const Vector<double> z = Vector<double>::LinSpaced(400, 1.5 * start, -1.5 * start);
-        axistokes::write_csv(directory / "frames.csv", frames.columns());
+
+    nlohmann::ordered_json summary() const {
+        nlohmann::ordered_json summary;
+        summary["passed"] = passed_;
+        if (const auto transit = track_.time_between(profile_.begin(), profile_.end())) {
+            summary["transit_time"] = *transit;
+            // Of the fluid alone, at the mean velocity of each section.
+            constexpr Index samples = 2000;
+            const Vector<double> z = Vector<double>::LinSpaced(samples, profile_.begin(), profile_.end());
+            const double section = wall_radii(profile_, z).array().square().mean() * std::numbers::pi;
+            summary["transit_time_of_fluid"] = section * (profile_.end() - profile_.begin()) / options_.flow_rate;
+        }
+        summary["smallest_film"] = film_;
+        summary["largest_pressure_drop"] = drop_;
+        summary["critical_tube_radius"] = axistokes::critical_tube_radius(measures_.area, measures_.volume);
+        summary["critical_orifice_radius"] = axistokes::critical_orifice_radius(measures_.area, measures_.volume);
+        if (!simulator_->history().empty()) {
+            const auto& last = simulator_->history().back();
+            summary["area_drift"] = last.area_drift;
+            summary["volume_drift"] = last.volume_drift;
+            summary["steps"] = last.step;
+            summary["time"] = last.time;
+        }
+        summary["elements"] = simulator_->configuration().shape.elements();
+        options_.method.describe(summary);
+        if constexpr (spectral) {
+            // Largest on the way, of the shape; the time steps' errors come on top.
+            const double error = unresolved_ / unresolved_to_error;
+            summary["error_estimate"] = error;
+            summary["error_met"] = error <= accuracy_.eps;
+        }
+        summary["flow_rate_deviation"] = deviation_;
+        summary["wall_nodes"] = simulator_->scene().wall().mesh()->curve().size();
+        summary["wall_meshes"] = simulator_->scene().wall().meshes();
+        summary["wall_seconds"] = seconds_;
+        if (!failure_.empty()) {
+            summary["failure"] = failure_;
+        }
+        summary["parameters"] = options_.parameters();
+        return summary;
+    }
+
+    void write(const nlohmann::ordered_json& summary) const {
+        const std::filesystem::path directory(options_.directory);
+        const Vector<double> z = Vector<double>::LinSpaced(400, 1.5 * start_, -1.5 * start_);
+        axistokes::write_csv(directory / "frames.csv", frames_.columns());
         axistokes::write_csv(directory / "wall.csv",
-                             std::vector<axistokes::Column<double>>{{"z", z}, {"r", wall_radii(profile, z)}});
-        axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulator.history()));
+                             std::vector<axistokes::Column<double>>{{"z", z}, {"r", wall_radii(profile_, z)}});
+        axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulator_->history()));
         axistokes::write_atomically(directory / "summary.json",
                                     [&](std::ostream& out) { out << summary.dump(2) << '\n'; });
     }
-    std::cout << (passed ? "passed\n" : "not passed\n") << std::setprecision(8);
-    for (const auto& [key, value] : summary.items()) {
-        if (value.is_number()) {
-            std::cout << "  " << std::left << std::setw(24) << key << value << '\n';
+
+    int conclude() const {
+        const nlohmann::ordered_json results = summary();
+        if (!options_.directory.empty()) {
+            write(results);
         }
+        std::cout << (passed_ ? "passed\n" : "not passed\n") << std::setprecision(8);
+        for (const auto& [key, value] : results.items()) {
+            if (value.is_number()) {
+                std::cout << "  " << std::left << std::setw(24) << key << value << '\n';
+            }
+        }
+        if (!failure_.empty()) {
+            throw axistokes::SimulationFailure(failure_);
+        }
+        return passed_ ? success : interrupted;
     }
-    if (!failure.empty()) {
-        throw axistokes::SimulationFailure(failure);
-    }
-    return passed ? success : interrupted;
-}
+
+    PassageOptions options_;
+    Channel profile_;
+    axistokes::Accuracy<double> accuracy_;
+    Discretization discretization_;
+    axistokes::Measures<double> measures_;
+    double start_ = 0;  // of the centroid
+    std::optional<Passage<Discretization>> simulator_;
+    Frames frames_;
+    Track track_;
+    double film_ = std::numeric_limits<double>::infinity();
+    double drop_ = 0;
+    double deviation_ = 0;   // of the flow rate
+    double unresolved_ = 0;  // largest share of the last modes
+    double seconds_ = 0;
+    std::string failure_;
+    bool passed_ = false;
+};
 
 }  // namespace examples

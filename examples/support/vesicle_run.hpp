@@ -35,7 +35,7 @@ class VesicleRun {
   public:
     VesicleRun(const VesicleCase& c, Kernel kernel, Wall wall)
         : case_(c),
-          run_(c.run),
+          run_(c.run.resolved()),
           params_(run_.params()),
           accuracy_(run_.method.accuracy()),
           discretization_(discretization_for<Discretization>(accuracy_)),

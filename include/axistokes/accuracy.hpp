@@ -22,8 +22,8 @@ struct Accuracy {
     S quadrature;
     S kernel;
     S wall;
-    /// Error allowed in a time step, in R0: of a run that ends at a given time, and of one that ends when stationary,
-    /// whose path does not matter.
+    /// Error allowed in a time step, in R0: of a run whose path matters (the errors of many steps add up to a few times
+    /// this), and of one to a stationary state, whose path does not.
     S step;
     S step_to_stationary;
     /// Residual of a stationary state. Slow modes make its error many times larger than the residual.
@@ -38,7 +38,7 @@ struct Accuracy {
         quadrature = std::max<S>(eps / 10, least);
         kernel = quadrature;
         wall = std::max<S>(eps, least);
-        step = std::max<S>(eps, least);
+        step = std::max<S>(eps / 4, least);
         step_to_stationary = S(1e-3);
         // Four derivatives in the bending force leave round-off of this size at a hundred modes.
         residual = std::max<S>(eps / 100, 7000 * least);

@@ -4,6 +4,7 @@
 
 #include "scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -75,6 +76,8 @@ struct SimulationParams {
     Index most_steps = 20000;
     /// The last step of the automatic ones ends there.
     S longest_time = std::numeric_limits<S>::max();
+    /// Automatic steps end at each of these times too.
+    std::vector<S> landing_times{};
 };
 
 namespace detail {
@@ -96,6 +99,9 @@ void validate(const SimulationParams<S>& p) {
     require(p.growth > S(1), "growth of the time step", p.growth, "> 1");
     require(p.most_steps >= 1, "number of steps", p.most_steps, "at least 1");
     require(p.longest_time > S(0), "longest time", p.longest_time, "> 0");
+    for (const S& time : p.landing_times) {
+        require(time >= S(0) && time < std::numeric_limits<S>::infinity(), "landing time", time, ">= 0 and finite");
+    }
 }
 
 }  // namespace detail
@@ -180,20 +186,22 @@ class Simulator {
     /// One time step. Throws SimulationFailure, leaving the state as it was.
     const Record& step() {
         Index rejected = 0;
-        if (!params_.time_step && time_ < params_.longest_time) {
-            dt_ = std::min(dt_, Scalar(params_.longest_time - time_));
+        Scalar planned = dt_;
+        landing_ = next_landing();
+        if (!params_.time_step && landing_) {
+            dt_ = std::min(dt_, Scalar(*landing_ - time_));
         }
         for (;;) {
             std::string cause;
             if (auto attempt = try_step(cause)) {
                 attempt->record.rejected = rejected;
-                accept(std::move(*attempt));
+                accept(std::move(*attempt), planned);
                 return history_.back();
             }
             if (params_.time_step) {
                 fail("time step " + detail::text(dt_) + " is too large: " + cause);
             }
-            dt_ = retry_;
+            dt_ = planned = retry_;
             ++rejected;
             if (dt_ < params_.smallest_time_step) {
                 fail("the time step fell below " + detail::text(params_.smallest_time_step) + ": " + cause);
@@ -261,6 +269,19 @@ class Simulator {
         }
         // NaN and infinite errors end up at the lower bound.
         return wanted > Scalar(0.2) ? std::min(Scalar(Scalar(0.9) * wanted), Scalar(3)) : Scalar(0.2);
+    }
+
+    /// The first of the longest time and the landing times that is yet to come.
+    std::optional<Scalar> next_landing() const {
+        std::optional<Scalar> next;
+        const auto consider = [&](const Scalar& time) {
+            if (time > time_ && (!next || time < *next)) {
+                next = time;
+            }
+        };
+        consider(params_.longest_time);
+        std::for_each(params_.landing_times.begin(), params_.landing_times.end(), consider);
+        return next;
     }
 
     struct Attempt {
@@ -378,7 +399,7 @@ class Simulator {
         next.shape.z.array() -= measures.centroid;
         next.position += measures.centroid;
         record.step = static_cast<Index>(history_.size()) + 1;
-        record.time = dt_ == params_.longest_time - time_ ? params_.longest_time : Scalar(time_ + dt_);
+        record.time = landing_ && dt_ == *landing_ - time_ ? *landing_ : Scalar(time_ + dt_);
         record.dt = dt_;
         record.position = next.position;
         record.length = next.shape.z[next.shape.nodes() - 1] - next.shape.z[0];
@@ -392,7 +413,8 @@ class Simulator {
         }
     }
 
-    void accept(Attempt attempt) {
+    /// `planned`: the step before it was cut short to land.
+    void accept(Attempt attempt, const Scalar& planned) {
         using std::abs;
         const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.velocity_scale());
         const bool accelerating = !history_.empty() && attempt.record.residual > history_.back().residual;
@@ -409,8 +431,10 @@ class Simulator {
         }
         if (estimates_error()) {
             const Scalar factor = step_factor(attempt.record.step_error, rate * dt_);
-            dt_ *= attempt.record.rejected > 0 ? std::min(Scalar(1), factor) : factor;
+            dt_ = planned > dt_ ? std::max(planned, Scalar(factor * dt_))
+                                : dt_ * (attempt.record.rejected > 0 ? std::min(Scalar(1), factor) : factor);
         } else {
+            dt_ = planned;
             if (reversed) {
                 dt_ /= 2;
             } else if (!accelerating || rate * dt_ < params_.largest_displacement / 10) {
@@ -438,6 +462,7 @@ class Simulator {
     Scalar time_{};
     Scalar dt_{};
     Scalar retry_{};  // the step to try when dt_ fails
+    std::optional<Scalar> landing_;
     Scalar film_{};
 };
 
