@@ -8,7 +8,7 @@ namespace work_precision {
 
 using axistokes::Index;
 
-enum class Stepping { euler, order2, order3, newton };
+enum class Stepping { euler, order2, order3, adaptive, newton };
 enum class Vesicle { settling, unbounded, tube };
 
 /// What the errors are measured by, and the steps (or Newton's evaluations of the scene) that it took.
@@ -55,7 +55,10 @@ inline TubeKernel<double> tube(double radius, double tolerance) {
 }
 
 /// Of a time step; Newton's method is none.
-inline ExtrapolatedEulerOfOrder integrator(Stepping stepping) {
+inline ExtrapolatedEulerOfOrder integrator(Stepping stepping, double tolerance) {
+    if (stepping == Stepping::adaptive) {
+        return ExtrapolatedEulerOfOrder::for_tolerance(tolerance);
+    }
     return ExtrapolatedEulerOfOrder(stepping == Stepping::order3 ? 3 : stepping == Stepping::order2 ? 2 : 1);
 }
 
@@ -90,7 +93,7 @@ Outcome stationary_of(const Kernel& kernel, const Flow& flow, const Meridian<dou
     params.tolerance = setting.residual;
     params.step_tolerance = setting.step_tolerance;
     March<Discretization, Kernel, Flow> simulator(start, flow, params, kernel, Discretization(), {},
-                                                  integrator(stepping));
+                                                  integrator(stepping, setting.step_tolerance));
     simulator.run();
     const auto& last = simulator.history().back();
     return {last.velocity, last.length, last.step};
@@ -144,7 +147,8 @@ Outcome transient(Stepping stepping, const Setting& setting) {
     }
     const auto start = spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, setting.n);
     detail::March<Discretization, FreeSpaceKernel<double>, Gravity<double>> simulator(
-        start, Gravity<double>(47.0), params, {}, Discretization(), {}, detail::integrator(stepping));
+        start, Gravity<double>(47.0), params, {}, Discretization(), {},
+        detail::integrator(stepping, setting.step_tolerance));
     simulator.run();
     const auto& last = simulator.history().back();
     return {last.position, last.length, last.step};

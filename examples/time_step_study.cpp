@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Largest stable step of the time integrators against the number of elements or modes, and their error against the
-// step, on a relaxing vesicle (docs/validation.md).
+// Largest stable step of the time integrators against the number of elements or modes, their error against the step,
+// and what steps chosen from a tolerance cost, on a relaxing vesicle (docs/validation.md, docs/time_stepping.md).
 #include "support/report.hpp"
 #include <axistokes/axistokes.hpp>
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <iostream>
 #include <sstream>
@@ -38,9 +40,10 @@ Meridian<double> start(Index elements) {
 
 /// Stable: many steps without a failure and without a rise of the bending energy above its first value.
 template <class Discretization, class Integrator>
-bool stable(Index elements, double dt) {
+bool stable(const Integrator& integrator, Index elements, double dt) {
     constexpr Index kSteps = 200;
-    Relaxation<Discretization, Integrator> simulator(start(elements), {}, fixed_step(dt, kSteps));
+    Relaxation<Discretization, Integrator> simulator(start(elements), {}, fixed_step(dt, kSteps), {}, Discretization(),
+                                                     {}, integrator);
     const double first = simulator.scene().discretization().bending_energy(simulator.configuration().shape);
     try {
         simulator.run();
@@ -53,63 +56,93 @@ bool stable(Index elements, double dt) {
 
 /// By bisection of the exponent, to 5 %; `largest` if that is stable.
 template <class Discretization, class Integrator>
-double largest_stable_step(Index elements) {
+double largest_stable_step(const Integrator& integrator, Index elements) {
     constexpr double kLargest = 1;
-    if (stable<Discretization, Integrator>(elements, kLargest)) {
+    if (stable<Discretization>(integrator, elements, kLargest)) {
         return kLargest;
     }
     double low = 1e-8;
     double high = kLargest;
     while (high / low > 1.05) {
         const double middle = std::sqrt(low * high);
-        (stable<Discretization, Integrator>(elements, middle) ? low : high) = middle;
+        (stable<Discretization>(integrator, elements, middle) ? low : high) = middle;
     }
     return low;
 }
 
+using Order = ExtrapolatedEulerOfOrder;
+const std::string columns = "explicit_euler,semi_implicit_euler,order_2,order_3,order_4,order_5,order_6";
+
 template <class Discretization>
 void stable_steps(examples::Report& table, const std::string& name, std::initializer_list<Index> counts) {
     for (const Index n : counts) {
-        table.row(name, n, largest_stable_step<Discretization, ExplicitEuler>(n),
-                  largest_stable_step<Discretization, SemiImplicitEuler>(n),
-                  largest_stable_step<Discretization, SecondOrder>(n),
-                  largest_stable_step<Discretization, ThirdOrder>(n));
+        const auto largest = [&](const auto& integrator) { return largest_stable_step<Discretization>(integrator, n); };
+        table.row(name, n, largest(ExplicitEuler()), largest(Order(1)), largest(Order(2)), largest(Order(3)),
+                  largest(Order(4)), largest(Order(5)), largest(Order(6)));
     }
 }
 
 constexpr double kTime = 0.02;
 
 template <class Integrator>
-double length_after(Index steps) {
-    Relaxation<Spectral, Integrator> simulator(start(24), {}, fixed_step(kTime / static_cast<double>(steps), steps));
+double length_after(const Integrator& integrator, Index steps) {
+    Relaxation<Spectral, Integrator> simulator(start(24), {}, fixed_step(kTime / static_cast<double>(steps), steps), {},
+                                               Spectral(), {}, integrator);
     simulator.run();
     return simulator.history().back().length;
 }
 
 /// Error of the length, or why there is none.
 template <class Integrator>
-std::string length_error(Index steps, double exact) {
+std::string length_error(const Integrator& integrator, Index steps, double exact) {
     try {
         std::ostringstream text;
-        text << std::abs(length_after<Integrator>(steps) - exact);
+        text << std::abs(length_after(integrator, steps) - exact);
         return text.str();
     } catch (const SimulationFailure&) {
         return "unstable";
     }
 }
 
+struct Run {
+    double length;
+    std::size_t steps;
+    double seconds;
+};
+
+/// With steps chosen from a tolerance.
+Run relaxed(int order, double tolerance) {
+    SimulationParams<double> params;
+    params.tolerance = 1e-12;
+    params.longest_time = 0.2;
+    params.step_tolerance = tolerance;
+    Relaxation<Spectral, Order> simulator(start(48), {}, params, {}, Spectral(), {}, Order(order));
+    const auto begin = std::chrono::steady_clock::now();
+    simulator.run();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    return {simulator.history().back().length, simulator.history().size(), elapsed.count()};
+}
+
 void study(const std::string& directory) {
-    examples::Report limits(directory, "stable_step.csv",
-                            "discretisation,n,explicit_euler,semi_implicit_euler,order_2,order_3");
+    examples::Report limits(directory, "stable_step.csv", "discretisation,n," + columns);
     stable_steps<Linear>(limits, "P1", {16, 32, 64, 128});
     stable_steps<Spectral>(limits, "spectral", {12, 16, 24, 32});
 
-    const double exact = length_after<ThirdOrder>(1024);
-    examples::Report errors(directory, "time_error.csv", "steps,dt,explicit_euler,semi_implicit_euler,order_2,order_3");
+    const double exact = length_after(Order(6), 128);
+    examples::Report errors(directory, "time_error.csv", "steps,dt," + columns);
     for (const Index steps : {4, 8, 16, 32, 64, 128, 256}) {
-        errors.row(steps, kTime / static_cast<double>(steps), length_error<ExplicitEuler>(steps, exact),
-                   length_error<SemiImplicitEuler>(steps, exact), length_error<SecondOrder>(steps, exact),
-                   length_error<ThirdOrder>(steps, exact));
+        const auto error = [&](const auto& integrator) { return length_error(integrator, steps, exact); };
+        errors.row(steps, kTime / static_cast<double>(steps), error(ExplicitEuler()), error(Order(1)), error(Order(2)),
+                   error(Order(3)), error(Order(4)), error(Order(5)), error(Order(6)));
+    }
+
+    const double relaxed_exact = relaxed(6, 1e-11).length;
+    examples::Report costs(directory, "time_cost.csv", "tolerance,order,steps,seconds,error");
+    for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
+        for (const int order : {2, 3, 4, 5, 6}) {
+            const Run run = relaxed(order, tolerance);
+            costs.row(tolerance, order, run.steps, run.seconds, std::abs(run.length - relaxed_exact));
+        }
     }
 }
 
@@ -118,7 +151,7 @@ void study(const std::string& directory) {
 int main(int argc, char** argv) {
     CLI::App app{"Largest stable step and error in time of the integrators, on a relaxing prolate vesicle (D = 0.6)"};
     std::string directory;
-    app.add_option("--out", directory, "directory that receives stable_step.csv and time_error.csv");
+    app.add_option("--out", directory, "directory that receives stable_step.csv, time_error.csv and time_cost.csv");
     CLI11_PARSE(app, argc, argv);
     try {
         study(directory);

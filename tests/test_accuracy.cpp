@@ -58,7 +58,9 @@ TEST_CASE("An order chosen at run time gives the step of the order chosen at com
     CHECK(same(ThirdOrder(), 3));
     CHECK_FALSE(same(ThirdOrder(), 2));
     CHECK_FALSE(ExtrapolatedEulerOfOrder(1).estimates_error());
-    CHECK(refusal([] { ExtrapolatedEulerOfOrder(4); }) == "order of the time step = 4: must be in [1, 3]");
+    CHECK(refusal([] { ExtrapolatedEulerOfOrder(7); }) == "order of the time step = 7: must be in [1, 6]");
+    CHECK(ExtrapolatedEulerOfOrder::for_tolerance(1e-3).order == 3);
+    CHECK(ExtrapolatedEulerOfOrder::for_tolerance(1e-12).order == 6);
 }
 
 TEST_CASE("Automatic steps end exactly at the longest time") {

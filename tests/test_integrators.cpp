@@ -55,6 +55,18 @@ TEST_CASE("Integrators converge with their order, area and volume corrected afte
     CHECK(observed_order<SemiImplicitEuler>(0.1, 64) == Approx(1).margin(0.1));
     CHECK(observed_order<SecondOrder>(0.1, 64) == Approx(2).margin(0.15));
     CHECK(observed_order<ThirdOrder>(0.1, 64) == Approx(3).margin(0.25));
+    CHECK(observed_order<ExtrapolatedEuler<4>>(0.02, 32) == Approx(4).margin(0.25));
+}
+
+TEST_CASE("Where round-off hides the orders above, each gains a digit") {
+    const Vector<double> exact = nodes_after<ExtrapolatedEuler<6>>(0.02, 32);
+    const auto error = [&](const Vector<double>& nodes) { return (nodes - exact).norm(); };
+    const double fourth = error(nodes_after<ExtrapolatedEuler<4>>(0.02, 8));
+    const double fifth = error(nodes_after<ExtrapolatedEuler<5>>(0.02, 8));
+    const double sixth = error(nodes_after<ExtrapolatedEuler<6>>(0.02, 8));
+    CHECK(fifth < fourth / 10);
+    CHECK(sixth < fifth / 10);
+    CHECK(error(nodes_after<ExtrapolatedEuler<5>>(0.02, 16)) < fifth / 12);
 }
 
 TEST_CASE("Integrators of different orders converge to the same motion") {

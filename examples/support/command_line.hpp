@@ -13,7 +13,7 @@ inline void MethodOptions::add_to(CLI::App& app, bool rigid) {
     const std::string idle = rigid ? "; a rigid body takes one solution in any case" : "";
     app.add_option("--discretization", discretization, "of the meridian: linear or spectral (default: spectral)");
     app.add_option("--integrator", integrator,
-                   std::string("euler, order2, order3, or adaptive: order3 with its step chosen from the tolerance\n"
+                   std::string("euler, order2, order3, or adaptive: third order, and up to sixth for tight tolerances\n"
                                "(default: euler to a stationary state; adaptive where the way matters, and with\n"
                                "--preset-accuracy)") +
                        idle);

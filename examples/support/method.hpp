@@ -50,8 +50,12 @@ struct MethodOptions {
     bool newton() const { return stationary == "newton"; }
     std::string integrator_name() const { return integrator.value_or(preset ? "adaptive" : usual_integrator); }
 
-    axistokes::ExtrapolatedEulerOfOrder steps() const {
+    /// `tolerance`: the error allowed in a step.
+    axistokes::ExtrapolatedEulerOfOrder steps(double tolerance) const {
         const std::string name = integrator_name();
+        if (name == "adaptive") {
+            return axistokes::ExtrapolatedEulerOfOrder::for_tolerance(tolerance);
+        }
         return axistokes::ExtrapolatedEulerOfOrder(name == "euler" ? 1 : name == "order2" ? 2 : 3);
     }
 

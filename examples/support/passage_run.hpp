@@ -134,7 +134,7 @@ class PassageRun {
         params.largest_displacement = options.displacement;
         params.step_tolerance = options.step_tolerance.value_or(accuracy_.step);
         simulator_.emplace(shape, axistokes::Quiescent<double>{}, params, axistokes::FreeSpaceKernel<double>{},
-                           discretization_, Vesicle<Discretization>{}, options.method.steps(),
+                           discretization_, Vesicle<Discretization>{}, options.method.steps(params.step_tolerance),
                            axistokes::DenseLU<double>{}, axistokes::WallMesh<Channel>(profile_, wall));
     }
 

@@ -94,7 +94,7 @@ class VesicleRun {
             shape = std::move(exact);
         }
         simulator_.emplace(shape, case_.drive, params_, kernel_, discretization_, Vesicle<Discretization>{},
-                           run_.method.steps(), axistokes::DenseLU<double>{}, wall_);
+                           run_.method.steps(params_.step_tolerance), axistokes::DenseLU<double>{}, wall_);
         frames_ = FramesAt(run_.frame_times);
         frames_.visit(0, *simulator_);
     }

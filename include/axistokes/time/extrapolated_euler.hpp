@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Second- and third-order semi-implicit steps by extrapolation (a policy for the time integrator;
+// Semi-implicit steps of second and higher order by extrapolation (a policy for the time integrator;
 // docs/time_stepping.md).
 //
 // A step H is done with 1, 2, ..., Order semi-implicit Euler steps H/j. Their results T(j, 1) have an expansion in the
@@ -115,9 +115,16 @@ class ExtrapolatedEulerOfOrder {
   public:
     int order = 1;
 
-    /// Throws InvalidArgument for an order outside 1 to 3.
+    /// Throws InvalidArgument for an order outside 1 to 6.
     explicit ExtrapolatedEulerOfOrder(int wanted = 1) : order(wanted) {
-        detail::require(wanted >= 1 && wanted <= 3, "order of the time step", wanted, "in [1, 3]");
+        detail::require(wanted >= 1 && wanted <= 6, "order of the time step", wanted, "in [1, 6]");
+    }
+
+    /// The order that reaches an accuracy in the least time when `tolerance` (in R0) is the error allowed in a step:
+    /// the longer steps of a higher one pay the sooner the tighter that is (measured: docs/time_stepping.md).
+    template <class S>
+    static ExtrapolatedEulerOfOrder for_tolerance(const S& tolerance) {
+        return ExtrapolatedEulerOfOrder(tolerance > S(3e-6) ? 3 : tolerance > S(3e-8) ? 5 : 6);
     }
 
     bool estimates_error() const { return order > 1; }
