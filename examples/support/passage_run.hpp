@@ -163,7 +163,8 @@ class PassageRun {
             return axistokes::spheroid_of_excess_area<double>(options_.excess_area, axistokes::SpheroidKind::prolate,
                                                               elements);
         };
-        return nodes_of(discretization_, spheroid, options_.elements.value_or(spectral ? 48 : 80));
+        return options_.elements ? nodes_of(discretization_, spheroid, *options_.elements)
+                                 : resolved_nodes(discretization_, spheroid, spectral ? 48 : 80, accuracy_.unresolved);
     }
 
     double time() const { return simulator_->history().empty() ? 0 : simulator_->history().back().time; }

@@ -50,6 +50,22 @@ axistokes::Meridian<double> nodes_of(const Discretization& discretization,
     }
 }
 
+/// With `first` or more elements: as many as the share `wanted` of the last modes takes.
+template <class Discretization>
+axistokes::Meridian<double> resolved_nodes(const Discretization& discretization,
+                                           const std::function<axistokes::Meridian<double>(axistokes::Index)>& shape,
+                                           axistokes::Index first, double wanted) {
+    axistokes::Meridian<double> nodes = nodes_of(discretization, shape, first);
+    if constexpr (judges_itself<Discretization>) {
+        constexpr axistokes::Index most = most_elements<Discretization>;
+        for (double share = discretization.unresolved(nodes); share > wanted && nodes.elements() < most;
+             share = discretization.unresolved(nodes)) {
+            nodes = nodes_of(discretization, shape, more_modes(nodes.elements(), share, wanted, most));
+        }
+    }
+    return nodes;
+}
+
 /// With integrals as accurate as that takes; without an accuracy the discretisation's own default.
 template <class Discretization>
 Discretization discretization_for(const std::optional<axistokes::Accuracy<double>>& accuracy) {

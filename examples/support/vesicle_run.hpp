@@ -88,7 +88,10 @@ class VesicleRun {
 
     /// (Re)starts from the initial shape, of exact area and volume where they can be had.
     void start(Index elements) {
-        Shape shape = nodes_of(discretization_, case_.initial, elements);
+        // What the initial shape lacks a run to a given time would never make up for.
+        Shape shape = spectral && run_.adapts() && run_.transient()
+                          ? resolved_nodes(discretization_, case_.initial, elements, accuracy_->unresolved)
+                          : nodes_of(discretization_, case_.initial, elements);
         Shape exact = shape;
         if (spectral && case_.excess_area > 0 && discretization_.restore(exact, exact_area(), exact_volume())) {
             shape = std::move(exact);
