@@ -84,6 +84,25 @@ TEST_CASE("Newton agrees with marching: settling") {
     agrees_with_marching(flow(0, 47), SpheroidKind::prolate, 0.6);
 }
 
+TEST_CASE("To round-off: on below the tolerance, by a few evaluations more") {
+    const auto start = march(flow(0, 47), SpheroidKind::prolate, 0.6, 1e-8, 10);
+    const SceneType scene({}, tightly_spaced(), {}, flow(0, 47), {});
+    const auto solved = [&](bool to_round_off) {
+        StationaryParams<double> params;
+        params.tolerance = 1e-5;
+        params.to_round_off = to_round_off;
+        return StationarySolver<SceneType>(scene, params)
+            .solve(start.configuration().shape, start.initial_area(), start.initial_volume());
+    };
+    const auto near = solved(false);
+    const auto exact = solved(true);
+    CHECK(near.residual < 1e-5);
+    CHECK(exact.residual < 1e-9);
+    CHECK(exact.evaluations > near.evaluations);
+    CHECK(exact.evaluations < near.evaluations + 8);
+    CHECK(exact.coarse_evaluations == near.coarse_evaluations);
+}
+
 TEST_CASE("P1 elements: few evaluations from a spheroid, and the linearisation's growth rates") {
     StationarySolver<SceneType> solver(SceneType({}, LinearElements<double>(), {}, flow(0, 47), {}));
     const Meridian<double> shape = spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, 2 * kElements);

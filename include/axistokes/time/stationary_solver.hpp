@@ -22,6 +22,8 @@ template <class S>
 struct StationaryParams {
     /// Converged: residual, as in StepRecord, below this; in (0, 1).
     S tolerance = S(1e-9);
+    /// Go on below the tolerance as long as an iteration reduces the residual by the factor `renewal`.
+    bool to_round_off = false;
     Index most_iterations = 60;
     /// Largest normal displacement in an iteration, in R0.
     S largest_displacement = S(0.1);
@@ -207,8 +209,14 @@ requires(SceneType::deformable) class StationarySolver {
             }
             return !finest || distant;
         };
-        for (Index iteration = 1; !(point.residual < tolerance); ++iteration) {
+        const bool to_round_off = params_.to_round_off && &scene == &scene_;
+        bool going = !(point.residual < tolerance) || to_round_off;
+        for (Index iteration = 1; going; ++iteration) {
+            const bool converged = point.residual < tolerance;
             if (iteration > params_.most_iterations) {
+                if (converged) {
+                    break;
+                }
                 throw SimulationFailure("stationary state: the residual is " + detail::text(point.residual) +
                                         " after " + std::to_string(params_.most_iterations) + " iterations");
             }
@@ -235,6 +243,9 @@ requires(SceneType::deformable) class StationarySolver {
                 const Vector<Scalar> missed = trial.velocity - point.velocity - jacobian * step;
                 jacobian += missed * step.transpose() / step.squaredNorm();
             }
+            if (converged && !(usable && trial.residual < point.residual)) {
+                break;
+            }
             const bool short_step = length < params_.largest_displacement / 10;
             // An unstable state near by is left with a residual that grows tenfold in a step.
             const bool leaving = growth > Scalar(0) && 2 * length < limit;
@@ -244,6 +255,7 @@ requires(SceneType::deformable) class StationarySolver {
                 const bool stale = !(trial.residual < point.residual / params_.renewal);
                 const bool hardly = !(trial.residual < point.residual / 2);
                 point = std::move(trial);
+                going = !(point.residual < tolerance) || (to_round_off && !stale);
                 linearisation.travelled += length + (moved ? stale_change() / 2 : Scalar(0));
                 if (!(point.residual < tolerance) && (moved || (stale && (!short_step || refine(length, hardly))))) {
                     renew(degree);
