@@ -267,7 +267,7 @@ def initial_shapes(g):
     fig, axes = plt.subplots(2, 1, figsize=(8.5, 6.4), layout="constrained")
     for a, kind in zip(axes, ("prolate", "oblate")):
         g.run(f"start_{kind}", "poiseuille_vesicle", excess_area=0.2, confinement="0.5", capillary_number=100,
-              elements=48, initial=kind, frame_times="0,0.01,0.03,0.13", dt=0.001, time=0.13)
+              elements=48, initial=kind, frame_times="0,0.01,0.03,0.13", time=0.13)
         draw_frames(a, g.table(f"start_{kind}", "frames.csv"), 2, 2.7)
         a.set_title(f"{kind} start, $\\Delta$ = 0.2, $R_c/R_0$ = 2, Ca = 100")
         a.set_ylabel(r"$r/R_0$")

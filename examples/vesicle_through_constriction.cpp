@@ -21,7 +21,7 @@ void examples::PassageOptions::add_to(CLI::App& app) {
     method.add_to(app);
     add_number(app, "--max-steps", most_steps, "give up after this many steps");
     add_number(app, "--frames", frames, "shapes to keep, evenly along the way");
-    app.add_option("--out", directory, "directory for summary.json, history.csv, frames.csv and wall.csv");
+    app.add_option("--out", directory, "directory for summary.json, shape.csv, history.csv, frames.csv and wall.csv");
 }
 
 int main(int argc, char** argv) {

@@ -75,8 +75,8 @@ class Track {
   public:
     void add(double time, const Meridian<double>& shape) {
         time_.push_back(time);
-        front_.push_back(shape.z.maxCoeff());
-        rear_.push_back(shape.z.minCoeff());
+        front_.push_back(largest(shape.z));
+        rear_.push_back(-largest(-shape.z));
     }
 
     /// From the front at `begin` to the rear at `end`; nothing if it did not get there.
@@ -90,6 +90,18 @@ class Track {
     }
 
   private:
+    /// Between the nodes too, by the parabola through three of them. At the poles the curve is level.
+    static double largest(const Vector<double>& z) {
+        Index i = 0;
+        const double top = z.maxCoeff(&i);
+        if (i == 0 || i + 1 == z.size()) {
+            return top;
+        }
+        const double slope = (z[i + 1] - z[i - 1]) / 2;
+        const double curvature = z[i + 1] - 2 * z[i] + z[i - 1];
+        return curvature < 0 ? top - slope * slope / (2 * curvature) : top;
+    }
+
     /// When `z` first passes `mark`: by the cubic polynomial through the two instants before and the two after.
     std::optional<double> first_beyond(double mark, const std::vector<double>& z) const {
         const auto after = std::find_if(z.begin(), z.end(), [&](double now) { return now > mark; }) - z.begin();
@@ -152,7 +164,7 @@ class PassageRun {
                 failure_ = error.what();
             }
         }
-        keep_frame();
+        keep_last();
         seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         return conclude();
     }
@@ -199,6 +211,18 @@ class PassageRun {
     void keep_frame() {
         frames_.add(time(), drawn_curve(discretization_, simulator_->shape()));
         deviation_ = std::max(deviation_, flow_rate_deviation(*simulator_, options_.flow_rate));
+    }
+
+    /// The last shape may be the cause of a failure: then without velocities and forces.
+    void keep_last() {
+        const Meridian<double>& shape = simulator_->configuration().shape;
+        shape_ = {{"r", shape.r}, {"z", shape.z}};
+        try {
+            keep_frame();
+            shape_ = axistokes::shape_columns(simulator_->configuration(), simulator_->instant());
+        } catch (const axistokes::SimulationFailure& error) {
+            failure_ = failure_.empty() ? error.what() : failure_;
+        }
     }
 
     /// More modes as soon as the shape needs them.
@@ -279,6 +303,7 @@ class PassageRun {
         axistokes::write_csv(directory / "frames.csv", frames_.columns());
         axistokes::write_csv(directory / "wall.csv",
                              std::vector<axistokes::Column<double>>{{"z", z}, {"r", wall_radii(profile_, z)}});
+        axistokes::write_csv(directory / "shape.csv", shape_);
         axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulator_->history()));
         axistokes::write_atomically(directory / "summary.json",
                                     [&](std::ostream& out) { out << summary.dump(2) << '\n'; });
@@ -309,6 +334,7 @@ class PassageRun {
     double start_ = 0;  // of the centroid
     std::optional<Passage<Discretization>> simulator_;
     Frames frames_;
+    std::vector<axistokes::Column<double>> shape_;  // the last one
     Track track_;
     double film_ = std::numeric_limits<double>::infinity();
     double drop_ = 0;
