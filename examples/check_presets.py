@@ -75,7 +75,7 @@ class Checker:
 
     def run(self, name, preset, **more):
         """The summary, or None for a run that failed or took too long."""
-        program, options = SCENES[name][:2]
+        program, options, _, finest = SCENES[name]
         directory = self.work / plain(name) / preset
         if more:
             directory = directory.with_name(preset + "_finer")
@@ -94,7 +94,7 @@ class Checker:
             summary.unlink(missing_ok=True)
             try:
                 subprocess.run(words, check=True, stdout=subprocess.DEVNULL,
-                               timeout=(10 if SCENES[name][3] else 1) * self.arguments.timeout)
+                               timeout=(10 if finest else 1) * self.arguments.timeout)
             except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as error:
                 print(f"check_presets.py: {name}, {preset}: {error}", file=sys.stderr)
                 return None
@@ -117,8 +117,8 @@ class Checker:
         cells, good = [name], True
         for preset, promised in PRESETS.items():
             summary, other = runs.get(preset), best
-            if preset == "reference" and best and not exact and not finest:
-                other = self.run(name, preset, elements=int(1.3 * best["elements"]))
+            if preset == "reference" and summary and not exact:
+                other = self.run(name, preset, elements=int(1.3 * summary["elements"]))
             if summary is None or (other is None and not exact):
                 cells += ["-", "", ""]
                 good = good and preset not in runs
@@ -145,7 +145,8 @@ def main():
     parser.add_argument("--stationary", default="march", help="march or newton (default: march)")
     parser.add_argument("--other", default="", metavar="OPTIONS",
                         help="of the programs, for fast and balanced: '--discretization linear', '--method wall'")
-    parser.add_argument("--timeout", type=float, default=240, help="seconds a run may take, a passage ten times that (default: 240)")
+    parser.add_argument("--timeout", type=float, default=240,
+                        help="seconds a run may take, a passage ten times that (default: 240)")
     parser.add_argument("--reuse", action="store_true", help="take runs that are in --work already")
     arguments = parser.parse_args()
     names = [n for n in SCENES if not arguments.scene or any(n.startswith(s) for s in arguments.scene)]

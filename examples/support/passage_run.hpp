@@ -5,6 +5,7 @@
 #include "compiled.hpp"
 #include "exit_code.hpp"
 #include "frames.hpp"
+#include "last_shape.hpp"
 #include "neck.hpp"
 #include "passage_case.hpp"
 #include "progress.hpp"
@@ -47,8 +48,8 @@ using Passage = axistokes::Simulator<axistokes::FreeSpaceKernel<double>, Discret
 
 /// Largest relative deviation of the flow rate through sections all along the channel.
 template <class Discretization>
-double flow_rate_deviation(Passage<Discretization>& simulator, double flow_rate) {
-    const auto instant = simulator.instant();
+double flow_rate_deviation(const Passage<Discretization>& simulator,
+                           const typename Passage<Discretization>::InstantType& instant, double flow_rate) {
     axistokes::WallMesh<Channel> wall = simulator.scene().wall();
     const auto field = wall.field(simulator.scene().discretization(), simulator.scene().kernel(), simulator.shape(),
                                   instant.solution.force);
@@ -124,6 +125,7 @@ class Track {
 
 template <class Discretization>
 class PassageRun {
+    using Instant = typename Passage<Discretization>::InstantType;
     static constexpr bool spectral = judges_itself<Discretization>;
     static constexpr double unresolved_to_error = axistokes::Accuracy<double>::unresolved_to_error;
 
@@ -192,7 +194,7 @@ class PassageRun {
             }
             const double way = (position() - start_) / (-2 * start_);
             if (way * static_cast<double>(options_.frames - 1) >= static_cast<double>(kept)) {
-                keep_frame();
+                keep_frame(simulator_->instant());
                 ++kept;
             }
             const auto record = simulator_->step();
@@ -208,35 +210,36 @@ class PassageRun {
         passed_ = position() >= -start_;
     }
 
-    void keep_frame() {
+    /// `instant`: nothing for a shape that has no velocities and forces, having caused a failure.
+    void keep_frame(const std::optional<Instant>& instant) {
         frames_.add(time(), drawn_curve(discretization_, simulator_->shape()));
-        deviation_ = std::max(deviation_, flow_rate_deviation(*simulator_, options_.flow_rate));
+        if (instant) {
+            deviation_ = std::max(deviation_, flow_rate_deviation(*simulator_, *instant, options_.flow_rate));
+        }
     }
 
-    /// The last shape may be the cause of a failure: then without velocities and forces.
     void keep_last() {
-        const Meridian<double>& shape = simulator_->configuration().shape;
-        shape_ = {{"r", shape.r}, {"z", shape.z}};
+        std::optional<Instant> instant;
         try {
-            keep_frame();
-            shape_ = axistokes::shape_columns(simulator_->configuration(), simulator_->instant());
+            instant = simulator_->instant();
         } catch (const axistokes::SimulationFailure& error) {
             failure_ = failure_.empty() ? error.what() : failure_;
         }
+        keep_frame(instant);
+        shape_ = last_shape_columns(simulator_->configuration(), instant);
     }
 
     /// More modes as soon as the shape needs them.
     void resolve() {
         if constexpr (spectral) {
             const Meridian<double>& now = simulator_->configuration().shape;
-            if (!options_.elements && now.elements() < most_elements<Discretization>) {
-                const double share = discretization_.unresolved(now);
-                if (share > accuracy_.unresolved) {
-                    simulator_->refine(
-                        more_modes(now.elements(), share, accuracy_.unresolved, most_elements<Discretization>));
-                }
+            double share = discretization_.unresolved(now);
+            if (!options_.elements && now.elements() < most_elements<Discretization> && share > accuracy_.unresolved) {
+                simulator_->refine(
+                    more_modes(now.elements(), share, accuracy_.unresolved, most_elements<Discretization>));
+                share = discretization_.unresolved(now);
             }
-            unresolved_ = std::max(unresolved_, discretization_.unresolved(simulator_->configuration().shape));
+            unresolved_ = std::max(unresolved_, share);
         }
     }
 

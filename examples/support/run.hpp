@@ -4,6 +4,7 @@
 
 #include "exit_code.hpp"
 #include "frames.hpp"
+#include "last_shape.hpp"
 #include "options.hpp"
 #include "summary.hpp"
 #include <axistokes/io/csv.hpp>
@@ -24,10 +25,7 @@ void write_results(const Simulator& simulator, const Ending<Simulator>& ending, 
     const std::filesystem::path directory(options.directory);
     const auto& configuration = ending.configuration;
     const auto& instant = ending.instant;
-    // Without velocities and forces (the last shape may be the cause of a failure) at least the shape.
-    const std::vector<axistokes::Column<double>> shape =
-        instant ? axistokes::shape_columns(configuration, *instant)
-                : std::vector<axistokes::Column<double>>{{"r", configuration.shape.r}, {"z", configuration.shape.z}};
+    const std::vector<axistokes::Column<double>> shape = last_shape_columns(configuration, instant);
     axistokes::write_csv(directory / "shape.csv", shape);
     axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulator.history()));
     if (!frames.empty()) {

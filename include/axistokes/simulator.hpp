@@ -187,9 +187,9 @@ class Simulator {
     const Record& step() {
         Index rejected = 0;
         Scalar planned = dt_;
-        landing_ = next_landing();
-        if (!params_.time_step && landing_) {
-            dt_ = std::min(dt_, Scalar(*landing_ - time_));
+        const std::optional<Scalar> landing = next_landing();
+        if (!params_.time_step && landing) {
+            dt_ = std::min(dt_, Scalar(*landing - time_));
         }
         for (;;) {
             std::string cause;
@@ -399,7 +399,8 @@ class Simulator {
         next.shape.z.array() -= measures.centroid;
         next.position += measures.centroid;
         record.step = static_cast<Index>(history_.size()) + 1;
-        record.time = landing_ && dt_ == *landing_ - time_ ? *landing_ : Scalar(time_ + dt_);
+        const std::optional<Scalar> landing = next_landing();
+        record.time = landing && dt_ == *landing - time_ ? *landing : Scalar(time_ + dt_);
         record.dt = dt_;
         record.position = next.position;
         record.length = next.shape.z[next.shape.nodes() - 1] - next.shape.z[0];
@@ -462,7 +463,6 @@ class Simulator {
     Scalar time_{};
     Scalar dt_{};
     Scalar retry_{};  // the step to try when dt_ fails
-    std::optional<Scalar> landing_;
     Scalar film_{};
 };
 
