@@ -11,8 +11,8 @@
 #include <axistokes/membrane/vesicle.hpp>
 #include <axistokes/scene.hpp>
 #include <axistokes/solver/dense.hpp>
-#include <axistokes/time/stationary_branch.hpp>
-#include <axistokes/time/stationary_solver.hpp>
+#include <axistokes/stationary/stationary_branch.hpp>
+#include <axistokes/stationary/stationary_solver.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -15,7 +15,7 @@
 #include <axistokes/simulator.hpp>
 #include <axistokes/solver/dense.hpp>
 #include <axistokes/time/semi_implicit_euler.hpp>
-#include <axistokes/time/stationary_solver.hpp>
+#include <axistokes/stationary/stationary_solver.hpp>
 
 #include <CLI/CLI.hpp>
 

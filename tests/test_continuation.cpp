@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Branches of an algebraic problem with known folds and a known change of stability.
 #include "catch.hpp"
-#include <axistokes/time/continuation.hpp>
+#include <axistokes/stationary/continuation.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include <axistokes/solver/dense.hpp>
 #include <axistokes/time/extrapolated_euler.hpp>
 #include <axistokes/time/semi_implicit_euler.hpp>
-#include <axistokes/time/stationary_solver.hpp>
+#include <axistokes/stationary/stationary_solver.hpp>
 
 #include <cmath>
 

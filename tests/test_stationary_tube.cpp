@@ -10,8 +10,8 @@
 #include <axistokes/simulator.hpp>
 #include <axistokes/solver/dense.hpp>
 #include <axistokes/time/semi_implicit_euler.hpp>
-#include <axistokes/time/stationary_branch.hpp>
-#include <axistokes/time/stationary_solver.hpp>
+#include <axistokes/stationary/stationary_branch.hpp>
+#include <axistokes/stationary/stationary_solver.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <axistokes/membrane/vesicle.hpp>
 #include <axistokes/scene.hpp>
 #include <axistokes/solver/dense.hpp>
-#include <axistokes/time/stationary_solver.hpp>
+#include <axistokes/stationary/stationary_solver.hpp>
 #include <axistokes/wall/no_wall.hpp>
 
 #include <memory>

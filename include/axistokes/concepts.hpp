@@ -7,6 +7,7 @@
 #include "geometry/meridian.hpp"
 
 #include <concepts>
+#include <vector>
 
 namespace axistokes {
 
@@ -22,24 +23,28 @@ concept GreenKernel = requires(const K& kernel, Point<typename K::Scalar> target
     { kernel.singular_split(target, coordinate, coordinate, count, out, out) } -> std::same_as<void>;
 };
 
-/// DiscretizationFor<Kernel>: nodes on the meridian and the operators on them. `surface(meridian)` gives the frozen
-/// geometry: nodal weights of Int dA, outward normals, curvatures, and the linear operators (Laplacian, divergence,
-/// tension force) as matrices of whatever type multiplies vectors. `single_layer(meridian, kernel)` is the matrix from
-/// nodal force densities, stacked [r; z], to nodal velocities; `single_layer_at` the same for targets off the surface.
+/// DiscretizationFor<Kernel>: nodes on the meridian and the operators on them. `surface(meridian, parts)` gives the
+/// frozen geometry: nodal weights of Int dA, outward normals, and, if they are wanted, curvatures and the linear operators
+/// (Laplacian, divergence, tension force) as matrices of whatever type multiplies vectors. `single_layer(meridian,
+/// kernel)` is the matrix from nodal force densities, stacked [r; z], to nodal velocities; `single_layer_at` the same for
+/// targets off the surface.
 /// The curve between the nodes is the discretisation's too: `measures`, `max_radius`, `bending_energy` and
-/// `pole_curvatures` of it, `restore(shape, area, volume)` after a step, and `redistribute(shape)` when the nodes have
-/// drifted; the last two tell whether they did.
+/// `pole_curvatures` of it, points of it in `sampled(shape)`, `restore(shape, area, volume)` and `restore(shape, volume)`
+/// after a step, and `redistribute(shape)` when the nodes have drifted; the last three tell whether they did.
 template <class D, class Kernel>
 concept DiscretizationFor = GreenKernel<Kernel> && std::same_as<typename D::Scalar, typename Kernel::Scalar> &&
     requires(const D& discretization, const Meridian<typename D::Scalar>& meridian, const Kernel& kernel) {
     typename D::Surface;
-    { discretization.surface(meridian) } -> std::same_as<typename D::Surface>;
+    { discretization.surface(meridian, SurfaceParts::all) } -> std::same_as<typename D::Surface>;
     { discretization.single_layer(meridian, kernel) } -> std::convertible_to<Matrix<typename D::Scalar>>;
+    { discretization.single_layer_at(meridian, meridian, kernel) } -> std::convertible_to<Matrix<typename D::Scalar>>;
 } && requires(const D& discretization, Meridian<typename D::Scalar>& shape, typename D::Scalar value) {
     { discretization.measures(shape) } -> std::convertible_to<Measures<typename D::Scalar>>;
     { discretization.max_radius(shape) } -> std::convertible_to<typename D::Scalar>;
     { discretization.bending_energy(shape) } -> std::convertible_to<typename D::Scalar>;
+    { discretization.sampled(shape) } -> std::convertible_to<Meridian<typename D::Scalar>>;
     { discretization.restore(shape, value, value) } -> std::convertible_to<bool>;
+    { discretization.restore(shape, value) } -> std::convertible_to<bool>;
     { discretization.redistribute(shape) } -> std::convertible_to<bool>;
 };
 
@@ -63,29 +68,6 @@ concept LinearSolver = requires(L& solver, const Matrix<typename L::Scalar>& a, 
     { solver.solve(b) } -> std::convertible_to<Vector<typename L::Scalar>>;
 };
 
-/// The quasi-static problem a membrane solves: a frozen surface, its single layer (velocity = mobility * nodal force
-/// density), the background at the nodes, and how implicit the membrane's forces are: they are evaluated at
-/// x + implicit_time * u, linearised about the frozen surface.
-template <class S, class Surface>
-struct MobilityProblem {
-    const Surface& surface;
-    const Matrix<S>& mobility;
-    const Vector<S>& background_velocity;  // stacked [r; z]
-    const Vector<S>& load;                 // stacked [r; z] force density
-    const Vector<S>& tension;              // of the previous step, or empty
-    S implicit_time;
-};
-
-/// Answer to a MobilityProblem; vectors are stacked [r; z] except the tension, which lives where the surface puts it.
-template <class S>
-struct MobilitySolution {
-    Vector<S> velocity;
-    Vector<S> force;    // total force density of the membrane on the fluid
-    Vector<S> bending;  // its bending part
-    Vector<S> tension_force;
-    Vector<S> tension;
-};
-
 /// ConfiningKernel: a kernel that vanishes on the wall of a straight tube of radius `tube_radius()` around the axis.
 /// `pressure_drop(surface, force)` is what a nodal force density adds to the pressure drop along the tube.
 template <class K>
@@ -94,31 +76,22 @@ concept ConfiningKernel = GreenKernel<K> && requires(const K& kernel) {
 };
 
 /// WallFor<Kernel, Discretization>: a wall with unknown tractions of its own. `confine` eliminates them: it turns the
-/// particle's mobility and background velocity in the wall's absence into those in its presence, for a particle given
-/// in the laboratory frame. `radius(z)` is the wall's distance from the axis, `pressure_drop(surface, force)` what a
-/// nodal force density on the particle confined last adds to the pressure drop along the channel, and
+/// mobility and the background velocity at the nodes of all bodies, in the wall's absence, into those in its presence,
+/// for bodies given in the laboratory frame, and returns the undisturbed flow of unit flow rate at the nodes (empty if
+/// the wall is no channel). `gap(point)` is a point's radial distance from the wall, negative beyond it,
 /// `velocity_scale()` a typical velocity of the flow that the wall brings with it and `centreline_velocity(z)` that
-/// flow's on the axis (both 0 if the background is the only flow). A policy with present = false has none of these.
+/// flow's on the axis (both 0 if the background is the only flow). NoWall is the wall that is not there.
 template <class W, class Kernel, class Discretization>
-concept WallFor =
-    !W::present || requires(W & wall, const Discretization& discretization, const Kernel& kernel,
-                            const Meridian<typename Kernel::Scalar>& particle,
-                            Matrix<typename Kernel::Scalar>& mobility, Vector<typename Kernel::Scalar>& background,
-                            typename Kernel::Scalar z, const typename Discretization::Surface& surface) {
-    { wall.confine(discretization, kernel, particle, mobility, background) } -> std::same_as<void>;
-    { wall.radius(z) } -> std::convertible_to<typename Kernel::Scalar>;
-    { wall.pressure_drop(surface, background) } -> std::convertible_to<typename Kernel::Scalar>;
+concept WallFor = requires(W& wall, const Discretization& discretization, const Kernel& kernel,
+                           const std::vector<Meridian<typename Kernel::Scalar>>& bodies,
+                           Matrix<typename Kernel::Scalar>& mobility, Vector<typename Kernel::Scalar>& background,
+                           typename Kernel::Scalar z, Point<typename Kernel::Scalar> point) {
+    { W::present } -> std::convertible_to<bool>;
+    { wall.confine(discretization, kernel, bodies, mobility, background) }
+    -> std::convertible_to<Vector<typename Kernel::Scalar>>;
+    { wall.gap(point) } -> std::convertible_to<typename Kernel::Scalar>;
     { wall.velocity_scale() } -> std::convertible_to<typename Kernel::Scalar>;
     { wall.centreline_velocity(z) } -> std::convertible_to<typename Kernel::Scalar>;
-};
-
-/// MembraneFor<Surface>: turns a MobilityProblem into velocities and forces with a given linear solver. `deformable`
-/// tells whether the shape can change; if not, time stepping reduces to one solve.
-template <class M, class Surface, class Solver>
-concept MembraneFor = LinearSolver<Solver> &&
-    requires(const M& membrane, const MobilityProblem<typename M::Scalar, Surface>& problem, Solver& solver) {
-    { M::deformable } -> std::convertible_to<bool>;
-    { membrane.solve(problem, solver) } -> std::same_as<MobilitySolution<typename M::Scalar>>;
 };
 
 }  // namespace axistokes

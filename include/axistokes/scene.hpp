@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The quasi-static part of a simulation: given a shape, the velocities and forces on it.
+// The quasi-static part of a simulation: given the shapes of the bodies, the velocities and forces on them.
 #pragma once
 
 #include "concepts.hpp"
+#include "equation/motion.hpp"
 #include "wall/no_wall.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace axistokes {
 
-/// Where the membrane is and the tension it had last; the meridian is relative to the centroid.
+/// Where a body is and the tension it had last; the meridian is relative to the centroid.
 template <class S>
 struct Configuration {
     Meridian<S> shape;
@@ -19,7 +23,7 @@ struct Configuration {
     Vector<S> tension;  // empty before the first step
 };
 
-/// Everything known about one instant. Velocities are in the laboratory frame.
+/// Everything known about one body at one instant. Velocities are in the laboratory frame.
 template <class S, class Surface>
 struct Instant {
     Surface surface;
@@ -27,18 +31,21 @@ struct Instant {
     S velocity{};  // of the centroid, along z
     /// Largest normal velocity relative to the centroid's: 0 in a stationary state.
     S deformation_rate{};
-    /// Added by the particle to the pressure drop along the tube or channel, in kappa/R0^3; 0 without walls.
+    /// Added by the body to the pressure drop along the tube or channel, in kappa/R0^3; 0 without one.
     S pressure_drop{};
     /// Largest difference of the undisturbed flow along an element over its length.
     S shear_rate{};
 };
 
-/// How close the membrane comes to the wall, in R0.
+/// How close a body comes to the wall, and to other bodies, in R0; infinite where there are none.
 template <class S>
 struct FilmThickness {
     S min = std::numeric_limits<S>::infinity();
+    /// Axial position of the thinnest place, in the laboratory frame.
+    S where = std::numeric_limits<S>::quiet_NaN();
     /// Over the part of the meridian within 10 % of the largest radius, by arc length.
     S mean = std::numeric_limits<S>::infinity();
+    S to_neighbour = std::numeric_limits<S>::infinity();
 };
 
 namespace detail {
@@ -55,100 +62,164 @@ std::pair<S, Vector<S>> relative_normal_velocity(const Surface& surface, const V
     return {velocity, std::move(w)};
 }
 
+/// Least distance of the nodes of one meridian from the chords of another one.
+template <class S>
+S least_distance(const Meridian<S>& nodes, const Meridian<S>& chords) {
+    using std::sqrt;
+    S least = std::numeric_limits<S>::infinity();
+    for (Index i = 0; i < nodes.nodes(); ++i) {
+        for (Index e = 0; e < chords.elements(); ++e) {
+            const S dr = chords.r[e + 1] - chords.r[e];
+            const S dz = chords.z[e + 1] - chords.z[e];
+            const S r = nodes.r[i] - chords.r[e];
+            const S z = nodes.z[i] - chords.z[e];
+            const S t = std::clamp(S((r * dr + z * dz) / (dr * dr + dz * dz)), S(0), S(1));
+            least = std::min(least, S((r - t * dr) * (r - t * dr) + (z - t * dz) * (z - t * dz)));
+        }
+    }
+    return sqrt(least);
+}
+
+template <class S>
+Meridian<S> shifted(Meridian<S> shape, const S& along) {
+    shape.z.array() += along;
+    return shape;
+}
+
 }  // namespace detail
 
-/// Policies of a scene. Every policy comes by value and is const afterwards, but for the solver and the wall, which may
-/// keep factors between solves.
-template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Membrane, Background Flow,
+/// Policies of a scene, and the laws of its bodies: one for all, or one for each. Every policy comes by value and is
+/// const afterwards, but for the solver and the wall, which may keep factors between solves.
+template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Law, Background Flow,
           LinearSolver Solver, WallFor<Kernel, Discretization> Wall = NoWall>
-requires MembraneFor<Membrane, typename Discretization::Surface, Solver>
+requires LawsFor<Law, typename Discretization::Surface>
 class Scene {
   public:
     using Scalar = typename Kernel::Scalar;
     using Surface = typename Discretization::Surface;
     using InstantType = Instant<Scalar, Surface>;
-    static constexpr bool deformable = Membrane::deformable;
-    static constexpr bool confined = ConfiningKernel<Kernel> || Wall::present;
+    /// The bodies, in the order in which they lie along the axis.
+    using State = std::vector<Configuration<Scalar>>;
+    using Instants = std::vector<InstantType>;
+    /// Whether there is a body whose shape can change.
+    static constexpr bool deformable = detail::LawKinds<Law>::any_deformable;
+    static constexpr bool confined = Kernel::has_images || Wall::present;
 
-    Scene(Kernel kernel, Discretization discretization, Membrane membrane, Flow flow, Solver solver, Wall wall = {})
+    Scene(Kernel kernel, Discretization discretization, std::vector<Law> laws, Flow flow, Solver solver,
+          Wall wall = {})
         : kernel_(std::move(kernel)),
           discretization_(std::move(discretization)),
-          membrane_(std::move(membrane)),
+          laws_(std::move(laws)),
           flow_(std::move(flow)),
-          solver_(std::move(solver)),
-          wall_(std::move(wall)) {}
+          solver_(solver),
+          explicit_solver_(std::move(solver)),
+          wall_(std::move(wall)) {
+        detail::require(!laws_.empty(), "number of laws", laws_.size(), "at least 1");
+    }
+    Scene(Kernel kernel, Discretization discretization, Law law, Flow flow, Solver solver, Wall wall = {})
+        : Scene(std::move(kernel), std::move(discretization), std::vector<Law>{std::move(law)}, std::move(flow),
+                std::move(solver), std::move(wall)) {}
 
     const Kernel& kernel() const { return kernel_; }
     const Discretization& discretization() const { return discretization_; }
-    const Membrane& membrane() const { return membrane_; }
+    const Law& law(std::size_t body = 0) const { return laws_.size() == 1 ? laws_[0] : laws_.at(body); }
+    const std::vector<Law>& laws() const { return laws_; }
     const Flow& flow() const { return flow_; }
     const Solver& solver() const { return solver_; }
     const Wall& wall() const { return wall_; }
 
-    /// What an evaluation needs of a configuration however implicit it is: the costly part.
-    struct Frozen {
+    bool deforms(std::size_t body) const { return !detail::is_rigid(law(body)); }
+
+    /// A body's share of what an evaluation needs.
+    struct FrozenBody {
         Surface surface;
-        Matrix<Scalar> mobility;
-        Vector<Scalar> background;
         Vector<Scalar> load;
         Scalar shear_rate{};
     };
-
-    Frozen freeze(const Configuration<Scalar>& configuration) {
+    /// What an evaluation needs of a state however implicit it is: the costly part. Matrix and vectors are those of all
+    /// nodes, body after body.
+    struct Frozen {
+        std::vector<FrozenBody> bodies;
+        Matrix<Scalar> mobility;
+        Vector<Scalar> background;
+        Vector<Scalar> unit_flow;  // undisturbed, of flow rate 1; empty outside channels
+    };
+    /// A state with all that is known about it.
+    struct Moment {
+        State bodies;
         Frozen frozen;
-        frozen.surface = discretization_.surface(configuration.shape);
-        frozen.mobility = discretization_.single_layer(configuration.shape, kernel_);
-        frozen.background = background_velocity(configuration);
-        if constexpr (Wall::present) {
-            Meridian<Scalar> particle = configuration.shape;
-            particle.z.array() += configuration.position;
-            wall_.confine(discretization_, kernel_, particle, frozen.mobility, frozen.background);
+        Instants instants;
+    };
+
+    /// Throws SimulationFailure when nothing can be computed on the state.
+    Frozen freeze(const State& state) {
+        try {
+            return frozen(state);
+        } catch (const InvalidArgument& error) {
+            // Of a kernel or a rule: the input was good, what the motion made of it is not.
+            throw SimulationFailure(error.what());
         }
-        frozen.shear_rate = shear_rate(configuration.shape, frozen.background);
-        frozen.load = normal_load(configuration, frozen.surface);
-        return frozen;
     }
 
-    /// Velocities with the membrane's forces taken at x + implicit_time * u (0: at x).
+    /// Velocities with the forces of the laws taken at x + implicit_time * u (0: at x).
     /// Throws SimulationFailure when the system cannot be solved.
+    Instants evaluate(const State& state, const Scalar& implicit_time) {
+        return evaluate(freeze(state), state, implicit_time);
+    }
+    /// Of a body that is alone.
     InstantType evaluate(const Configuration<Scalar>& configuration, const Scalar& implicit_time) {
-        return evaluate(freeze(configuration), configuration, implicit_time);
+        return std::move(evaluate(State{configuration}, implicit_time).front());
     }
 
-    /// The same, for a configuration that is frozen already.
-    InstantType evaluate(const Frozen& frozen, const Configuration<Scalar>& configuration,
-                         const Scalar& implicit_time) {
-        InstantType instant;
-        instant.surface = frozen.surface;
-        instant.shear_rate = frozen.shear_rate;
-        const Surface& surface = frozen.surface;
-        instant.solution =
-            membrane_.solve(MobilityProblem<Scalar, Surface>{surface, frozen.mobility, frozen.background, frozen.load,
-                                                             configuration.tension, implicit_time},
-                            solver_);
-        const auto [velocity, deformation] =
-            detail::relative_normal_velocity<Scalar>(surface, configuration.shape.z, instant.solution.velocity);
-        instant.velocity = velocity;
-        instant.deformation_rate = deformation.cwiseAbs().maxCoeff();
-        if constexpr (ConfiningKernel<Kernel>) {
-            instant.pressure_drop = kernel_.pressure_drop(surface, instant.solution.force);
+    /// The same, for a state that is frozen already.
+    Instants evaluate(const Frozen& frozen, const State& state, const Scalar& implicit_time) {
+        std::vector<detail::EquationBody<Scalar, Surface, Law>> bodies;
+        for (std::size_t b = 0; b < state.size(); ++b) {
+            bodies.push_back({law(b), frozen.bodies[b].surface, frozen.bodies[b].load, state[b].tension});
         }
-        if constexpr (Wall::present) {
-            instant.pressure_drop = wall_.pressure_drop(surface, instant.solution.force);
+        detail::MotionEquation<Scalar, Surface, Law> equation(bodies, frozen.mobility, frozen.background,
+                                                              implicit_time);
+        // Two solvers: one that keeps factors finds a matrix like the last one.
+        auto solutions = equation.solve(implicit_time == Scalar(0) ? explicit_solver_ : solver_);
+        Instants instants(state.size());
+        Index begin = 0;
+        for (std::size_t b = 0; b < state.size(); ++b) {
+            InstantType& instant = instants[b];
+            instant.surface = frozen.bodies[b].surface;
+            instant.shear_rate = frozen.bodies[b].shear_rate;
+            instant.solution = std::move(solutions[b]);
+            const auto [velocity, deformation] = detail::relative_normal_velocity<Scalar>(
+                instant.surface, state[b].shape.z, instant.solution.velocity);
+            instant.velocity = velocity;
+            instant.deformation_rate = deforms(b) ? deformation.cwiseAbs().maxCoeff() : Scalar(0);
+            const Index n = state[b].shape.nodes();
+            if (frozen.unit_flow.size() > 0) {
+                // By the reciprocal theorem with the flow of unit flow rate.
+                for (Index i = 0; i < n; ++i) {
+                    instant.pressure_drop -=
+                        instant.surface.weight[i] * (instant.solution.force[i] * frozen.unit_flow[begin + i] +
+                                                     instant.solution.force[n + i] * frozen.unit_flow[begin + n + i]);
+                }
+            }
+            begin += 2 * n;
         }
-        return instant;
+        return instants;
+    }
+
+    Moment moment(State state) {
+        Moment moment;
+        moment.frozen = freeze(state);
+        moment.instants = evaluate(moment.frozen, state, Scalar(0));
+        moment.bodies = std::move(state);
+        return moment;
     }
 
     /// A typical velocity of what drives the scene.
     Scalar velocity_scale() const {
-        if constexpr (Wall::present) {
-            return std::max<Scalar>(flow_.velocity_scale(), wall_.velocity_scale());
-        } else {
-            return flow_.velocity_scale();
-        }
+        return std::max<Scalar>(flow_.velocity_scale(), Scalar(wall_.velocity_scale()));
     }
 
-    /// Undisturbed velocity at the nodes, stacked.
+    /// Undisturbed velocity at the nodes of one body, stacked, without a meshed wall's own flow.
     Vector<Scalar> background_velocity(const Configuration<Scalar>& configuration) const {
         const Index n = configuration.shape.nodes();
         Vector<Scalar> velocity = Vector<Scalar>::Zero(2 * n);
@@ -177,83 +248,215 @@ class Scene {
         return load;
     }
 
-    /// Undisturbed velocity on the axis at the centroid.
+    /// Undisturbed velocity on the axis.
     Scalar centreline_velocity(const Scalar& position) const {
-        Scalar velocity = 0;
+        Scalar velocity = wall_.centreline_velocity(position);
         if constexpr (Flow::has_flow) {
             velocity += flow_.velocity({Scalar(0), position}).z;
-        }
-        if constexpr (Wall::present) {
-            velocity += wall_.centreline_velocity(position);
         }
         return velocity;
     }
 
-    /// Distance of the wall from the axis at z in the laboratory frame; infinite without a wall.
-    Scalar wall_radius(const Scalar& z) const {
-        Scalar radius = std::numeric_limits<Scalar>::infinity();
-        if constexpr (ConfiningKernel<Kernel>) {
-            radius = kernel_.tube_radius();
+    /// Distance of a point of the laboratory frame from the wall, negative beyond it; infinite without one.
+    Scalar gap(const Point<Scalar>& point) const {
+        Scalar gap = wall_.gap(point);
+        if constexpr (Kernel::has_images) {
+            gap = std::min<Scalar>(gap, kernel_.gap(point));
         }
-        if constexpr (Wall::present) {
-            radius = std::min<Scalar>(radius, wall_.radius(z));
-        }
-        return radius;
+        return gap;
     }
 
-    /// Radial distances from the meridian to the wall; negative if a node is beyond it.
+    /// Distances from the curve of a body to the wall and, given the state it is part of, to its neighbours.
     FilmThickness<Scalar> film_thickness(const Configuration<Scalar>& configuration) const {
-        using std::sqrt;
         FilmThickness<Scalar> film;
         if constexpr (confined) {
-            const Meridian<Scalar>& shape = configuration.shape;
-            const Scalar wide = shape.r.maxCoeff() * Scalar(0.9);
-            const auto gap = [&](Index i) { return wall_radius(shape.z[i] + configuration.position) - shape.r[i]; };
-            Scalar covered = 0;
-            Scalar sum = 0;
-            for (Index i = 0; i < shape.elements(); ++i) {
-                film.min = std::min(film.min, gap(i + 1));
-                // The part [a, b] of the element, of length 1, that is wide enough.
-                const Scalar first = shape.r[i] - wide;
-                const Scalar last = shape.r[i + 1] - wide;
-                if (first < Scalar(0) && last < Scalar(0)) {
-                    continue;
-                }
-                const Scalar a = first < Scalar(0) ? Scalar(first / (first - last)) : Scalar(0);
-                const Scalar b = last < Scalar(0) ? Scalar(first / (first - last)) : Scalar(1);
-                const Scalar dr = shape.r[i + 1] - shape.r[i];
-                const Scalar dz = shape.z[i + 1] - shape.z[i];
-                const Scalar arc = (b - a) * sqrt(dr * dr + dz * dz);
-                covered += arc;
-                sum += arc * (gap(i) + (gap(i + 1) - gap(i)) * (a + b) / 2);
+            film = film_along(discretization_.sampled(configuration.shape), configuration.position);
+        }
+        return film;
+    }
+    FilmThickness<Scalar> film_thickness(const State& state, std::size_t body) const {
+        FilmThickness<Scalar> film = film_thickness(state[body]);
+        for (const std::size_t other : {body - 1, body + 1}) {
+            if (other < state.size()) {
+                const Scalar apart = state[other].position - state[body].position;
+                film.to_neighbour = std::min(
+                    film.to_neighbour, detail::least_distance(state[body].shape, detail::shifted(state[other].shape, apart)));
             }
-            film.mean = sum / covered;
         }
         return film;
     }
 
+    /// Why nothing can be computed on a body; empty if something can. The curve between the nodes is checked too.
+    std::string fault(const Configuration<Scalar>& configuration) const {
+        const Meridian<Scalar>& shape = configuration.shape;
+        std::string cause = detail::fault(shape);
+        if (!cause.empty()) {
+            return cause;
+        }
+        const Meridian<Scalar> curve = discretization_.sampled(shape);
+        if (!(curve.r.segment(1, curve.nodes() - 2).minCoeff() > Scalar(0))) {
+            return "the curve crosses the axis between two nodes";
+        }
+        if constexpr (confined) {
+            const FilmThickness<Scalar> film = film_along(curve, configuration.position);
+            if (!(film.min > Scalar(0))) {
+                return "the curve crosses the wall at z = " + detail::text(film.where);
+            }
+        }
+        return "";
+    }
+
   private:
-    static Scalar shear_rate(const Meridian<Scalar>& shape, const Vector<Scalar>& background) {
+    /// Coordinates of the nodes in the frame of the evaluation: the body's own if it is alone and the kernel does not mind.
+    Scalar origin(const State& state) const {
+        return Kernel::laboratory_frame ? Scalar(0) : state.front().position;
+    }
+
+    Frozen frozen(const State& state) {
+        Frozen frozen;
+        std::vector<Meridian<Scalar>> local;
+        std::vector<Meridian<Scalar>> places;
+        Index size = 0;
+        const Scalar zero = origin(state);
+        for (std::size_t b = 0; b < state.size(); ++b) {
+            const Configuration<Scalar>& configuration = state[b];
+            local.push_back(detail::shifted(configuration.shape, Scalar(configuration.position - zero)));
+            places.push_back(detail::shifted(configuration.shape, configuration.position));
+            FrozenBody body;
+            body.surface = discretization_.surface(configuration.shape,
+                                                   deforms(b) ? SurfaceParts::all : SurfaceParts::metric);
+            body.load = normal_load(configuration, body.surface);
+            frozen.bodies.push_back(std::move(body));
+            size += 2 * configuration.shape.nodes();
+        }
+        frozen.mobility = mobility(local, size);
+        frozen.background.resize(size);
+        Index begin = 0;
+        for (const Configuration<Scalar>& configuration : state) {
+            const Vector<Scalar> velocity = background_velocity(configuration);
+            frozen.background.segment(begin, velocity.size()) = velocity;
+            begin += velocity.size();
+        }
+        frozen.unit_flow = wall_.confine(discretization_, kernel_, places, frozen.mobility, frozen.background);
+        if constexpr (requires(Point<Scalar> x) { kernel_.unit_flow(x); }) {
+            add_unit_flow(places, size, frozen.unit_flow);
+        }
+        std::vector<detail::EquationBody<Scalar, Surface, Law>> bodies;
+        begin = 0;
+        for (std::size_t b = 0; b < state.size(); ++b) {
+            FrozenBody& body = frozen.bodies[b];
+            body.shear_rate = shear_rate(state[b].shape, frozen.background, begin);
+            bodies.push_back({law(b), body.surface, body.load, state[b].tension});
+            begin += 2 * state[b].shape.nodes();
+        }
+        detail::complete_rank<Scalar>(bodies, frozen.mobility, frozen.background);
+        return frozen;
+    }
+
+    Matrix<Scalar> mobility(const std::vector<Meridian<Scalar>>& bodies, Index size) const {
+        if (bodies.size() == 1) {
+            return discretization_.single_layer(bodies.front(), kernel_);
+        }
+        Matrix<Scalar> mobility(size, size);
+        Index source = 0;
+        for (const Meridian<Scalar>& body : bodies) {
+            const Index columns = 2 * body.nodes();
+            Index target = 0;
+            for (const Meridian<Scalar>& other : bodies) {
+                const Index rows = 2 * other.nodes();
+                mobility.block(target, source, rows, columns) =
+                    &body == &other ? discretization_.single_layer(body, kernel_)
+                                    : discretization_.single_layer_at(other, body, kernel_);
+                target += rows;
+            }
+            source += columns;
+        }
+        return mobility;
+    }
+
+    /// That of the kernel's tube, if it is one.
+    void add_unit_flow(const std::vector<Meridian<Scalar>>& places, Index size, Vector<Scalar>& flow) const {
+        using std::isfinite;
+        if (!isfinite(kernel_.gap({Scalar(0), Scalar(0)}))) {
+            return;
+        }
+        flow.resize(size);
+        Index begin = 0;
+        for (const Meridian<Scalar>& body : places) {
+            const Index n = body.nodes();
+            for (Index i = 0; i < n; ++i) {
+                const Point<Scalar> u = kernel_.unit_flow({body.r[i], body.z[i]});
+                flow[begin + i] = u.r;
+                flow[begin + n + i] = u.z;
+            }
+            begin += 2 * n;
+        }
+    }
+
+    static Scalar shear_rate(const Meridian<Scalar>& shape, const Vector<Scalar>& background, Index begin) {
         using std::sqrt;
         Scalar largest = 0;
         if constexpr (Flow::has_flow) {
             const Index n = shape.nodes();
             for (Index i = 0; i + 1 < n; ++i) {
-                const auto square = [](const Scalar& a, const Scalar& b) { return (a - b) * (a - b); };
-                const Scalar du =
-                    square(background[i + 1], background[i]) + square(background[n + i + 1], background[n + i]);
-                const Scalar dx = square(shape.r[i + 1], shape.r[i]) + square(shape.z[i + 1], shape.z[i]);
-                largest = std::max<Scalar>(largest, sqrt(du / dx));
+                const Scalar dur = background[begin + i + 1] - background[begin + i];
+                const Scalar duz = background[begin + n + i + 1] - background[begin + n + i];
+                const Scalar dr = shape.r[i + 1] - shape.r[i];
+                const Scalar dz = shape.z[i + 1] - shape.z[i];
+                largest = std::max<Scalar>(largest, sqrt((dur * dur + duz * duz) / (dr * dr + dz * dz)));
             }
         }
         return largest;
     }
 
+    FilmThickness<Scalar> film_along(const Meridian<Scalar>& curve, const Scalar& position) const {
+        using std::sqrt;
+        FilmThickness<Scalar> film;
+        const Index n = curve.nodes();
+        Vector<Scalar> gaps(n);
+        for (Index i = 0; i < n; ++i) {
+            gaps[i] = gap({curve.r[i], curve.z[i] + position});
+            if (gaps[i] < film.min) {
+                film.min = gaps[i];
+                film.where = curve.z[i] + position;
+            }
+        }
+        const Scalar wide = curve.r.maxCoeff() * Scalar(0.9);
+        Scalar covered = 0;
+        Scalar sum = 0;
+        for (Index i = 0; i + 1 < n; ++i) {
+            // Least of the parabola through three points, between them.
+            if (i > 0) {
+                const Scalar bend = gaps[i - 1] - 2 * gaps[i] + gaps[i + 1];
+                const Scalar slope = (gaps[i + 1] - gaps[i - 1]) / 2;
+                if (bend > Scalar(0) && gaps[i] <= gaps[i - 1] && gaps[i] <= gaps[i + 1]) {
+                    film.min = std::min(film.min, Scalar(gaps[i] - slope * slope / (2 * bend)));
+                }
+            }
+            // The part [a, b] of the chord, of length 1, that is wide enough.
+            const Scalar first = curve.r[i] - wide;
+            const Scalar last = curve.r[i + 1] - wide;
+            if (first < Scalar(0) && last < Scalar(0)) {
+                continue;
+            }
+            const Scalar a = first < Scalar(0) ? Scalar(first / (first - last)) : Scalar(0);
+            const Scalar b = last < Scalar(0) ? Scalar(first / (first - last)) : Scalar(1);
+            const Scalar dr = curve.r[i + 1] - curve.r[i];
+            const Scalar dz = curve.z[i + 1] - curve.z[i];
+            const Scalar arc = (b - a) * sqrt(dr * dr + dz * dz);
+            covered += arc;
+            sum += arc * (gaps[i] * (Scalar(1) - (a + b) / 2) + gaps[i + 1] * (a + b) / 2);
+        }
+        film.mean = sum / covered;
+        return film;
+    }
+
     Kernel kernel_;
     Discretization discretization_;
-    Membrane membrane_;
+    std::vector<Law> laws_;
     Flow flow_;
     Solver solver_;
+    Solver explicit_solver_;
     Wall wall_;
 };
 

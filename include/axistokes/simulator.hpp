@@ -2,33 +2,33 @@
 // A simulation assembled at compile time from its policies; see concepts.hpp for what each must offer.
 #pragma once
 
+#include "geometry/conserved.hpp"
 #include "scene.hpp"
+#include "time/step_control.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace axistokes {
 
-/// TimeIntegratorFor<Scene>: `step(scene, configuration, dt)` evaluates the scene once or more and returns the
-/// displaced meridian, relative to the moved centroid, the centroid's displacement and the instant the motion started
-/// from. The result may have a member `error`, an estimate of the step's error in R0: the automatic step then follows
-/// it, unless the integrator has a member `estimates_error()` that says it is none.
+/// TimeIntegratorFor<Scene>: `step(scene, start, dt)` takes a Scene::Moment and returns the displaced `bodies`, each
+/// meridian relative to the moved centroid, with their tensions. The result may have a member `error`, an estimate of
+/// the step's error in R0: the automatic step then follows it, unless the integrator has a member `estimates_error()`
+/// that says it is none.
 template <class T, class SceneType>
-concept TimeIntegratorFor = requires(const T& integrator, SceneType& scene,
-                                     const Configuration<typename SceneType::Scalar>& start,
+concept TimeIntegratorFor = requires(const T& integrator, SceneType& scene, const typename SceneType::Moment& start,
                                      typename SceneType::Scalar dt) {
     { integrator.order } -> std::convertible_to<int>;
-    { integrator.step(scene, start, dt).shape } -> std::convertible_to<Meridian<typename SceneType::Scalar>>;
-    { integrator.step(scene, start, dt).displacement } -> std::convertible_to<typename SceneType::Scalar>;
-    { integrator.step(scene, start, dt).instant } -> std::convertible_to<typename SceneType::InstantType>;
+    { integrator.step(scene, start, dt).bodies } -> std::convertible_to<typename SceneType::State>;
 };
 
-/// One line of a simulation's history: the state a step arrived at, with the velocities that led to it. Dimensionless:
-/// lengths in R0, times in eta R0^3/kappa, velocities in kappa/(eta R0^2), energies in kappa.
+/// One line of a body's history: the state a step arrived at, all of it at that one instant. Dimensionless: lengths in
+/// R0, times in eta R0^3/kappa, velocities in kappa/(eta R0^2), energies in kappa.
 template <class S>
 struct StepRecord {
     Index step = 0;
@@ -44,35 +44,22 @@ struct StepRecord {
     S volume_drift{};
     S area_error{};  // relative change in this step before the correction
     S volume_error{};
-    S bending_energy{};  // 2 Int H^2 dA
+    S bending_energy{};  // 2 Int H^2 dA; 0 for a rigid body
     S residual{};        // largest normal velocity relative to the centroid, over the velocity scale
-    S film_thickness_min = std::numeric_limits<S>::infinity();  // distance to the wall
+    S film_thickness_min = std::numeric_limits<S>::infinity();  // distance to the wall, along the curve
     S film_thickness_mean = std::numeric_limits<S>::infinity();
+    S neighbour_distance = std::numeric_limits<S>::infinity();  // to the nearest other body
     S step_error{};      // estimated, in R0; integrators with an estimate only
-    S pressure_drop{};   // added by the particle, in kappa/R0^3; 0 without walls
+    S pressure_drop{};   // added by the body, in kappa/R0^3; 0 without walls
     Index rejected = 0;  // attempts with larger steps before this one
     bool redistributed = false;
 };
 
 /// Step control and stationarity of a Simulator.
 template <class S>
-struct SimulationParams {
-    /// Stationary: residual below this, in (0, 1). Velocity scale: the larger of 1 and the background's.
+struct SimulationParams : StepControlParams<S> {
+    /// Stationary: residual below this, in [8 eps, 1). Velocity scale: the larger of 1 and the background's.
     S tolerance = S(1e-5);
-    /// A fixed step if given; then nothing is retried.
-    std::optional<S> time_step;
-    S first_time_step = S(1e-3);
-    S largest_time_step = S(1);
-    S smallest_time_step = S(1e-9);
-    /// Error allowed in a step, in R0, for integrators that estimate it; never more than a tenth of the motion.
-    S step_tolerance = S(1e-4);
-    /// Largest normal displacement in a step, in R0, for the other ones.
-    S largest_displacement = S(0.02);
-    /// Largest automatic step times the shear rate, of the undisturbed flow or half of that across the film: both are
-    /// explicit in the position. For integrators without an estimate.
-    S largest_strain = S(0.5);
-    /// Growth of the automatic step from one step to the next, likewise.
-    S growth = S(1.3);
     Index most_steps = 20000;
     /// The last step of the automatic ones ends there.
     S longest_time = std::numeric_limits<S>::max();
@@ -84,19 +71,8 @@ namespace detail {
 
 template <class S>
 void validate(const SimulationParams<S>& p) {
-    require(p.tolerance > S(0) && p.tolerance < S(1), "stationarity tolerance", p.tolerance, "in (0, 1)");
-    if (p.time_step) {
-        require(*p.time_step > S(0), "time step", *p.time_step, "> 0");
-    }
-    require(p.smallest_time_step > S(0), "smallest time step", p.smallest_time_step, "> 0");
-    require(p.first_time_step >= p.smallest_time_step, "first time step", p.first_time_step,
-            "at least the smallest time step");
-    require(p.largest_time_step >= p.first_time_step, "largest time step", p.largest_time_step,
-            "at least the first time step");
-    require(p.step_tolerance > S(0), "error allowed in a step", p.step_tolerance, "> 0");
-    require(p.largest_displacement > S(0), "largest displacement", p.largest_displacement, "> 0");
-    require(p.largest_strain > S(0), "largest strain", p.largest_strain, "> 0");
-    require(p.growth > S(1), "growth of the time step", p.growth, "> 1");
+    const S least = 8 * std::numeric_limits<S>::epsilon();
+    require(p.tolerance >= least && p.tolerance < S(1), "stationarity tolerance", p.tolerance, "in [8 eps, 1)");
     require(p.most_steps >= 1, "number of steps", p.most_steps, "at least 1");
     require(p.longest_time > S(0), "longest time", p.longest_time, "> 0");
     for (const S& time : p.landing_times) {
@@ -106,105 +82,161 @@ void validate(const SimulationParams<S>& p) {
 
 }  // namespace detail
 
-/// A vesicle or rigid body in a flow, from an initial shape to any later time or to its stationary state.
+/// Bodies in a flow, from their initial shapes to any later time or to a stationary state.
 ///
 /// Failures (a singular system, a self-intersection, a step below the smallest) throw SimulationFailure with the cause;
-/// the configuration and the history then are those of the last good step.
-template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Membrane, Background Flow,
-          class Integrator, LinearSolver Solver, WallFor<Kernel, Discretization> Wall = NoWall>
-requires MembraneFor<Membrane, typename Discretization::Surface, Solver> &&
-    TimeIntegratorFor<Integrator, Scene<Kernel, Discretization, Membrane, Flow, Solver, Wall>>
+/// the configurations and the histories then are those of the last good step.
+template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Law, Background Flow, class Integrator,
+          LinearSolver Solver, WallFor<Kernel, Discretization> Wall = NoWall,
+          StepControlFor<typename Kernel::Scalar> Control = StepControl<typename Kernel::Scalar>>
+requires LawsFor<Law, typename Discretization::Surface> &&
+    TimeIntegratorFor<Integrator, Scene<Kernel, Discretization, Law, Flow, Solver, Wall>>
 class Simulator {
   public:
     using Scalar = typename Kernel::Scalar;
-    using SceneType = Scene<Kernel, Discretization, Membrane, Flow, Solver, Wall>;
+    using SceneType = Scene<Kernel, Discretization, Law, Flow, Solver, Wall>;
     using InstantType = typename SceneType::InstantType;
+    using Moment = typename SceneType::Moment;
+    using State = typename SceneType::State;
     using Record = StepRecord<Scalar>;
     using Params = SimulationParams<Scalar>;
 
-    /// Throws InvalidArgument when the shape is not a valid meridian, does not fit between the walls, or a parameter is
-    /// out of range.
-    explicit Simulator(const Meridian<Scalar>& shape, Flow flow, Params params = {}, Kernel kernel = Kernel{},
-                       Discretization discretization = Discretization{}, Membrane membrane = Membrane{},
-                       Integrator integrator = Integrator{}, Solver solver = Solver{}, Wall wall = Wall{})
-        : params_(params),
-          scene_(std::move(kernel), std::move(discretization), std::move(membrane), std::move(flow), std::move(solver),
-                 std::move(wall)),
-          integrator_(std::move(integrator)) {
+    /// `shapes` are in the laboratory frame, in the order in which they lie along the axis. Throws InvalidArgument when a
+    /// shape is not a valid meridian, does not fit between the walls, or meets another one, or a parameter is out of
+    /// range.
+    Simulator(SceneType scene, Integrator integrator, const std::vector<Meridian<Scalar>>& shapes, Params params = {})
+        : params_(params), scene_(std::move(scene)), integrator_(std::move(integrator)), control_(params) {
         detail::validate(params);
-        validate(shape);
-        const Measures<Scalar> measures = scene_.discretization().measures(shape);
-        configuration_.shape = shape;
-        configuration_.shape.z.array() -= measures.centroid;
-        configuration_.position = measures.centroid;
-        area_ = measures.area;
-        volume_ = measures.volume;
-        dt_ = params.time_step.value_or(params.first_time_step);
-        film_ = scene_.film_thickness(configuration_).min;
-        detail::require(film_ > Scalar(0), "initial shape: its distance to the wall", film_,
-                        "> 0, that is the shape must fit between the walls");
+        detail::require(!shapes.empty(), "number of bodies", shapes.size(), "at least 1");
+        detail::require(scene_.laws().size() == 1 || scene_.laws().size() == shapes.size(), "number of laws",
+                        scene_.laws().size(), "1, or that of the bodies");
+        State state;
+        for (std::size_t b = 0; b < shapes.size(); ++b) {
+            validate(shapes[b]);
+            const Measures<Scalar> measures = scene_.discretization().measures(shapes[b]);
+            state.push_back({detail::shifted(shapes[b], Scalar(-measures.centroid)), measures.centroid, {}});
+            measures_.push_back(measures);
+            conserved_.emplace_back(measures, detail::keeps_area(scene_.law(b)));
+        }
+        histories_.resize(shapes.size());
+        for (std::size_t b = 0; b < shapes.size(); ++b) {
+            films_.push_back(scene_.film_thickness(state, b));
+            detail::require(films_[b].min > Scalar(0), "initial shape: its distance to the wall", films_[b].min,
+                            "> 0, that is the shape must fit between the walls");
+            if (b > 0) {
+                const Scalar below = state[b - 1].position + state[b - 1].shape.z[state[b - 1].shape.elements()];
+                const Scalar apart = state[b].position + state[b].shape.z[0] - below;
+                detail::require(state[b].position > state[b - 1].position && films_[b].to_neighbour > Scalar(0) &&
+                                    !meet(state[b - 1], state[b]),
+                                "initial shapes: distance of a body to the one before it", apart,
+                                "such that they do not meet, in the order in which they lie along the axis");
+            }
+        }
+        moment_.bodies = std::move(state);
     }
+    Simulator(SceneType scene, Integrator integrator, const Meridian<Scalar>& shape, Params params = {})
+        : Simulator(std::move(scene), std::move(integrator), std::vector<Meridian<Scalar>>{shape}, std::move(params)) {}
+
+    /// One body, and the policies that have no defaults first.
+    explicit Simulator(const Meridian<Scalar>& shape, Flow flow, Params params = {}, Kernel kernel = Kernel{},
+                       Discretization discretization = Discretization{}, Law law = Law{},
+                       Integrator integrator = Integrator{}, Solver solver = Solver{}, Wall wall = Wall{})
+        : Simulator(SceneType(std::move(kernel), std::move(discretization), std::move(law), std::move(flow),
+                              std::move(solver), std::move(wall)),
+                    std::move(integrator), shape, std::move(params)) {}
 
     const SceneType& scene() const { return scene_; }
     const Params& params() const { return params_; }
-    const Configuration<Scalar>& configuration() const { return configuration_; }
-    const std::vector<Record>& history() const { return history_; }
-    Scalar initial_area() const { return area_; }
-    Scalar initial_volume() const { return volume_; }
+    std::size_t bodies() const { return moment_.bodies.size(); }
+    const State& state() const { return moment_.bodies; }
+    const Configuration<Scalar>& configuration(std::size_t body = 0) const { return moment_.bodies.at(body); }
+    const std::vector<Record>& history(std::size_t body = 0) const { return histories_.at(body); }
+    Scalar initial_area(std::size_t body = 0) const { return measures_.at(body).area; }
+    Scalar initial_volume(std::size_t body = 0) const { return measures_.at(body).volume; }
 
-    /// Whether the last step met the stationarity tolerance.
-    bool stationary() const { return !history_.empty() && history_.back().residual < params_.tolerance; }
+    /// Whether all bodies met the stationarity tolerance after the last step.
+    bool stationary() const { return !histories_.front().empty() && residual() < params_.tolerance; }
+
+    /// Largest residual of the bodies after the last step; infinite before the first.
+    Scalar residual() const {
+        Scalar largest = 0;
+        for (const std::vector<Record>& history : histories_) {
+            largest = std::max(largest,
+                               history.empty() ? std::numeric_limits<Scalar>::infinity() : history.back().residual);
+        }
+        return largest;
+    }
+
+    const Scalar& time() const { return time_; }
 
     /// Whether the longest time has passed; automatic steps end there exactly.
     bool finished() const { return !(time_ < params_.longest_time); }
 
-    /// The shape in the laboratory frame.
-    Meridian<Scalar> shape() const {
-        Meridian<Scalar> shape = configuration_.shape;
-        shape.z.array() += configuration_.position;
-        return shape;
+    /// A body's shape in the laboratory frame.
+    Meridian<Scalar> shape(std::size_t body = 0) const {
+        return detail::shifted(configuration(body).shape, configuration(body).position);
     }
 
-    /// Velocities and forces on the current shape.
-    InstantType instant() { return scene_.evaluate(configuration_, Scalar(0)); }
+    /// Velocities and forces on the current shapes. Throws SimulationFailure.
+    const Moment& moment() {
+        if (moment_.instants.empty()) {
+            moment_ = scene_.moment(moment_.bodies);
+        }
+        return moment_;
+    }
+    const InstantType& instant(std::size_t body = 0) { return moment().instants.at(body); }
 
-    /// Goes on with `elements` elements on the current curve. Throws InvalidArgument for fewer than 8 and
+    /// Goes on with `elements` elements on the current curve of a body. Throws InvalidArgument for fewer than 8 and
     /// SimulationFailure, leaving the state as it was, if they cannot carry the shape.
-    void refine(Index elements) requires(Membrane::deformable) {
+    void refine(Index elements, std::size_t body = 0) requires(SceneType::deformable) {
         const Discretization& discretization = scene_.discretization();
-        Meridian<Scalar> shape = discretization.redistributed(configuration_.shape, elements);
-        std::string cause;
-        if (!usable(shape, cause) || !discretization.restore(shape, area_, volume_) || !usable(shape, cause)) {
+        Configuration<Scalar> refined = configuration(body);
+        refined.tension.resize(0);
+        refined.shape = discretization.redistributed(refined.shape, elements);
+        std::string cause = scene_.fault(refined);
+        if (cause.empty() && scene_.deforms(body)) {
+            cause = conserved_[body].restore(discretization, refined.shape)
+                        ? scene_.fault(refined)
+                        : "area and volume could not be restored";
+        }
+        if (!cause.empty()) {
             fail(std::to_string(elements) + " elements cannot carry the shape: " + cause);
         }
-        shape.z.array() -= discretization.measures(shape).centroid;
-        configuration_.shape = std::move(shape);
-        configuration_.tension.resize(0);
+        refined.shape.z.array() -= discretization.measures(refined.shape).centroid;
+        moment_.bodies[body] = std::move(refined);
+        moment_.instants.clear();
         motion_.resize(0);
     }
 
-    /// One time step. Throws SimulationFailure, leaving the state as it was.
+    /// One time step; the first body's record. Throws SimulationFailure, leaving the state as it was.
     const Record& step() {
         Index rejected = 0;
-        Scalar planned = dt_;
-        const std::optional<Scalar> landing = next_landing();
-        if (!params_.time_step && landing) {
-            dt_ = std::min(dt_, Scalar(*landing - time_));
+        Scalar planned = control_.step();
+        Scalar dt = planned;
+        if (const auto landing = next_landing(); !control_.fixed() && landing) {
+            dt = std::min(dt, Scalar(*landing - time_));
+        }
+        try {
+            moment();
+        } catch (const SimulationFailure& failure) {
+            fail(failure.what());
         }
         for (;;) {
-            std::string cause;
-            if (auto attempt = try_step(cause)) {
-                attempt->record.rejected = rejected;
-                accept(std::move(*attempt), planned);
-                return history_.back();
-            }
-            if (params_.time_step) {
-                fail("time step " + detail::text(dt_) + " is too large: " + cause);
-            }
-            dt_ = planned = retry_;
-            ++rejected;
-            if (dt_ < params_.smallest_time_step) {
-                fail("the time step fell below " + detail::text(params_.smallest_time_step) + ": " + cause);
+            try {
+                Attempt next = attempt(dt);
+                accept(std::move(next), planned, rejected);
+                return histories_.front().back();
+            } catch (const SimulationFailure& failure) {
+                const auto* rejection = dynamic_cast<const StepRejected*>(&failure);
+                if (control_.fixed()) {
+                    fail("time step " + detail::text(dt) + " is too large: " + failure.what());
+                }
+                dt = planned = dt * Scalar(rejection ? rejection->factor() : 0.5);
+                ++rejected;
+                if (!control_.shorten(dt)) {
+                    fail("the time step fell below " + detail::text(params_.smallest_time_step) + ": " +
+                         failure.what());
+                }
             }
         }
     }
@@ -213,8 +245,8 @@ class Simulator {
     /// every step; if it returns bool, false stops the run.
     template <class Observer>
     bool run(Observer observe) {
-        const Index last = static_cast<Index>(history_.size()) + params_.most_steps;
-        while (static_cast<Index>(history_.size()) < last && !finished()) {
+        const Index last = steps() + params_.most_steps;
+        while (steps() < last && !finished()) {
             const Record& record = step();
             if constexpr (std::is_convertible_v<decltype(observe(record)), bool>) {
                 if (!observe(record)) {
@@ -234,41 +266,21 @@ class Simulator {
     }
 
   private:
-    static constexpr bool has_estimate =
-        requires(Integrator & integrator, SceneType& scene, const Configuration<Scalar>& start, Scalar dt) {
-        { integrator.step(scene, start, dt).error } -> std::convertible_to<Scalar>;
+    using Film = FilmThickness<Scalar>;
+
+    struct Attempt {
+        Moment moment;
+        std::vector<Record> records;
+        std::vector<Film> films;
+        Vector<Scalar> motion;  // displacements of the nodes of all bodies, stacked
+        StepReport<Scalar> report;
     };
 
-    bool estimates_error() const {
-        if constexpr (has_estimate && requires { integrator_.estimates_error(); }) {
-            return integrator_.estimates_error();
-        } else {
-            return has_estimate;
-        }
-    }
+    Index steps() const { return static_cast<Index>(histories_.front().size()); }
 
-    /// The error may be `step_tolerance`, and a tenth of the membrane's motion: close to a stationary state steps at
-    /// the limit of stability would otherwise keep it in motion for ever.
-    Scalar allowed_error(const Scalar& motion) const {
-        if constexpr (Membrane::deformable) {
-            const Scalar rounding = 1000 * std::numeric_limits<Scalar>::epsilon();
-            return std::min(params_.step_tolerance, std::max(Scalar(motion / 10), rounding));
-        } else {
-            return params_.step_tolerance;
-        }
-    }
-
-    /// From a step to the longest one that should meet the tolerance: the estimate, the error of the order below, grows
-    /// like dt^order, and its ratio to the motion like dt^(order - 1).
-    Scalar step_factor(const Scalar& error, const Scalar& motion) const {
-        using std::pow;
-        Scalar wanted = pow(params_.step_tolerance / error, Scalar(1) / Scalar(integrator_.order));
-        const Scalar allowed = allowed_error(motion);
-        if (integrator_.order > 1 && allowed < params_.step_tolerance) {
-            wanted = std::min(wanted, Scalar(pow(allowed / error, Scalar(1) / Scalar(integrator_.order - 1))));
-        }
-        // NaN and infinite errors end up at the lower bound.
-        return wanted > Scalar(0.2) ? std::min(Scalar(Scalar(0.9) * wanted), Scalar(3)) : Scalar(0.2);
+    [[noreturn]] void fail(const std::string& cause) const {
+        throw SimulationFailure("step " + std::to_string(steps() + 1) + " at time " + detail::text(time_) + ": " +
+                                cause);
     }
 
     /// The first of the longest time and the landing times that is yet to come.
@@ -284,186 +296,196 @@ class Simulator {
         return next;
     }
 
-    struct Attempt {
-        Configuration<Scalar> configuration;
-        Record record;
-        Vector<Scalar> motion;  // velocity relative to the centroid, stacked
-        Scalar shear_rate{};
-    };
-
-    [[noreturn]] void fail(const std::string& cause) const {
-        throw SimulationFailure("step " + std::to_string(history_.size() + 1) + " at time " + detail::text(time_) +
-                                ": " + cause);
+    static bool meet(const Configuration<Scalar>& below, const Configuration<Scalar>& above) {
+        const Meridian<Scalar> a = detail::shifted(below.shape, below.position);
+        const Meridian<Scalar> b = detail::shifted(above.shape, above.position);
+        for (Index i = 0; i < a.elements(); ++i) {
+            for (Index j = 0; j < b.elements(); ++j) {
+                if (detail::segments_cross(Point<Scalar>{a.r[i], a.z[i]}, {a.r[i + 1], a.z[i + 1]}, {b.r[j], b.z[j]},
+                                           {b.r[j + 1], b.z[j + 1]})) {
+                    return true;
+                }
+            }
+        }
+        return a.z[a.elements()] >= b.z[0];
     }
 
-    std::optional<Attempt> try_step(std::string& cause) {
-        retry_ = dt_ / 2;
-        auto step = [&] {
-            try {
-                return std::optional(integrator_.step(scene_, configuration_, dt_));
-            } catch (const SimulationFailure& failure) {
-                cause = failure.what();
-                return std::optional<decltype(integrator_.step(scene_, configuration_, dt_))>();
-            }
-        }();
-        if (!step) {
-            return std::nullopt;
-        }
+    /// A step of length dt, as far as the state it would lead to. Throws SimulationFailure if it leads nowhere.
+    Attempt attempt(const Scalar& dt) {
+        using std::abs;
         Attempt attempt;
-        Record& record = attempt.record;
-        record.residual = step->instant.deformation_rate / std::max(Scalar(1), scene_.velocity_scale());
-        record.velocity = step->instant.velocity;
-        if constexpr (has_estimate) {
-            record.step_error = step->error;
-            const Scalar motion = step->instant.deformation_rate * dt_;
-            if (estimates_error() && !params_.time_step && !(step->error <= allowed_error(motion))) {
-                cause = "the step's error is " + detail::text(step->error) + " R0";
-                retry_ = dt_ * std::min(Scalar(0.5), step_factor(step->error, motion));
-                return std::nullopt;
+        auto step = integrator_.step(scene_, std::as_const(moment_), dt);
+        State next = std::move(step.bodies);
+        StepReport<Scalar>& report = attempt.report;
+        report.dt = dt;
+        report.order = integrator_.order;
+        report.deformable = SceneType::deformable;
+        Scalar error = 0;
+        if constexpr (requires { step.error; }) {
+            error = step.error;
+            report.error = step.error;
+            if constexpr (requires { integrator_.estimates_error(); }) {
+                if (!integrator_.estimates_error()) {
+                    report.error.reset();
+                }
             }
         }
-        Configuration<Scalar>& next = attempt.configuration;
-        next.position = configuration_.position + step->displacement;
-        next.shape = std::move(step->shape);
-        if constexpr (Membrane::deformable) {
-            attempt.motion = step->instant.solution.velocity;
-            attempt.shear_rate = step->instant.shear_rate;
-            attempt.motion.tail(next.shape.nodes()).array() -= record.velocity;
-            next.tension = std::move(step->instant.solution.tension);
-            const Scalar displacement = step->instant.deformation_rate * dt_;
-            if (!estimates_error() && !params_.time_step && !(displacement <= 2 * params_.largest_displacement)) {
-                cause = "the membrane would move by " + detail::text(displacement) + " R0";
-                return std::nullopt;
-            }
-            if (!deform(next, record, cause)) {
-                return std::nullopt;
-            }
+        measure_motion(next, attempt);
+        control_.judge(report);
+        for (std::size_t b = 0; b < next.size(); ++b) {
+            Record record;
+            record.step_error = error;
+            settle(next[b], b, record);
+            attempt.records.push_back(record);
         }
-        describe(next, record);
-        if constexpr (SceneType::confined) {
-            const FilmThickness<Scalar> film = scene_.film_thickness(next);
-            record.film_thickness_min = film.min;
-            record.film_thickness_mean = film.mean;
-            if (Membrane::deformable && !clear_of_wall(record, cause)) {
-                return std::nullopt;
-            }
+        for (std::size_t b = 0; b < next.size(); ++b) {
+            attempt.films.push_back(scene_.film_thickness(next, b));
+            keep_apart(next, b, attempt.films[b]);
         }
-        record.pressure_drop = step->instant.pressure_drop;
+        attempt.moment = scene_.moment(std::move(next));
+        for (std::size_t b = 0; b < attempt.records.size(); ++b) {
+            describe(attempt, b, dt);
+        }
         return attempt;
     }
 
-    /// Checks and corrects a displaced shape; false, with the cause, if it cannot be used.
-    bool deform(Configuration<Scalar>& next, Record& record, std::string& cause) const {
-        Meridian<Scalar>& shape = next.shape;
-        if (!usable(shape, cause)) {
-            return false;
+    /// Displacements relative to the centroids, and what the step control wants to know of them.
+    void measure_motion(const State& next, Attempt& attempt) const {
+        using std::abs;
+        Index size = 0;
+        for (const Configuration<Scalar>& body : next) {
+            size += 2 * body.shape.nodes();
         }
-        const Discretization& discretization = scene_.discretization();
-        const Measures<Scalar> raw = discretization.measures(shape);
-        record.area_error = raw.area / area_ - 1;
-        record.volume_error = raw.volume / volume_ - 1;
-        if (!discretization.restore(shape, area_, volume_)) {
-            cause = "area and volume drifted by " + detail::text(record.area_error) + " and " +
-                    detail::text(record.volume_error) + " and could not be restored";
-            return false;
+        attempt.motion.resize(size);
+        Index begin = 0;
+        StepReport<Scalar>& report = attempt.report;
+        for (std::size_t b = 0; b < next.size(); ++b) {
+            const Meridian<Scalar>& before = moment_.bodies[b].shape;
+            const Index n = before.nodes();
+            attempt.motion.segment(begin, n) = next[b].shape.r - before.r;
+            attempt.motion.segment(begin + n, n) = next[b].shape.z - before.z;
+            const auto& body = moment_.frozen.bodies[b];
+            for (Index i = 0; i < n && scene_.deforms(b); ++i) {
+                const Scalar normal = body.surface.normal_r[i] * attempt.motion[begin + i] +
+                                      body.surface.normal_z[i] * attempt.motion[begin + n + i];
+                report.displacement = abs(normal) <= report.displacement ? report.displacement : Scalar(abs(normal));
+            }
+            report.shear_rate = std::max({report.shear_rate, body.shear_rate,
+                                          Scalar(abs(moment_.instants[b].velocity) / (2 * films_[b].min))});
+            begin += 2 * n;
         }
-        record.redistributed = discretization.redistribute(shape);
-        if (record.redistributed && !discretization.restore(shape, area_, volume_)) {
-            cause = "area and volume could not be restored after the nodes were moved along the membrane, for which " +
-                    std::to_string(shape.nodes()) + " of them are too few";
-            return false;
-        }
-        return usable(shape, cause);
+        report.reversed = motion_.size() == attempt.motion.size() && attempt.motion.dot(motion_) < Scalar(0);
     }
 
-    /// In one step the film may lose at most half of its thickness.
-    bool clear_of_wall(const Record& record, std::string& cause) const {
-        if (record.film_thickness_min > film_ / 2 || std::isinf(static_cast<double>(film_))) {
-            return true;
+    /// Checks a displaced body and gives it back what its law conserves.
+    void settle(Configuration<Scalar>& next, std::size_t b, Record& record) const {
+        if constexpr (SceneType::deformable) {
+            if (scene_.deforms(b)) {
+                const Discretization& discretization = scene_.discretization();
+                require_usable(next);
+                const Measures<Scalar> raw = discretization.measures(next.shape);
+                const Conserved<Scalar>& kept = conserved_[b];
+                record.area_error = kept.area ? Scalar(raw.area / *kept.area - 1) : Scalar(0);
+                record.volume_error = raw.volume / kept.volume - 1;
+                if (!kept.restore(discretization, next.shape)) {
+                    throw SimulationFailure("area and volume drifted by " + detail::text(record.area_error) + " and " +
+                                            detail::text(record.volume_error) + " and could not be restored");
+                }
+                record.redistributed = discretization.redistribute(next.shape);
+                if (record.redistributed && !kept.restore(discretization, next.shape)) {
+                    throw SimulationFailure(
+                        "area and volume could not be restored after the nodes were moved along the membrane, for which " +
+                        std::to_string(next.shape.nodes()) + " of them are too few");
+                }
+                require_usable(next);
+            }
         }
-        cause = record.film_thickness_min > Scalar(0)
-                    ? "the distance to the wall would shrink from " + detail::text(film_) + " to " +
-                          detail::text(record.film_thickness_min)
-                    : "the membrane would cross the wall";
-        return false;
-    }
-
-    static bool usable(const Meridian<Scalar>& shape, std::string& cause) {
-        cause = detail::fault(shape);
-        return cause.empty();
-    }
-
-    void describe(Configuration<Scalar>& next, Record& record) const {
-        const Discretization& discretization = scene_.discretization();
-        const Measures<Scalar> measures = discretization.measures(next.shape);
+        const Measures<Scalar> measures = scene_.discretization().measures(next.shape);
         next.shape.z.array() -= measures.centroid;
         next.position += measures.centroid;
-        record.step = static_cast<Index>(history_.size()) + 1;
-        const std::optional<Scalar> landing = next_landing();
-        record.time = landing && dt_ == *landing - time_ ? *landing : Scalar(time_ + dt_);
-        record.dt = dt_;
-        record.position = next.position;
-        record.length = next.shape.z[next.shape.nodes() - 1] - next.shape.z[0];
-        record.max_radius = discretization.max_radius(next.shape);
         record.area = measures.area;
         record.volume = measures.volume;
-        record.area_drift = measures.area / area_ - 1;
-        record.volume_drift = measures.volume / volume_ - 1;
-        if constexpr (Membrane::deformable) {
-            record.bending_energy = discretization.bending_energy(next.shape);
+        record.area_drift = measures.area / measures_[b].area - 1;
+        record.volume_drift = measures.volume / measures_[b].volume - 1;
+    }
+
+    void require_usable(const Configuration<Scalar>& body) const {
+        const std::string cause = scene_.fault(body);
+        if (!cause.empty()) {
+            throw SimulationFailure(cause);
+        }
+    }
+
+    /// In one step the film, or the distance to a neighbour, may lose at most half of its thickness.
+    void keep_apart(const State& next, std::size_t b, const Film& film) const {
+        const auto guard = [](const Scalar& before, const Scalar& after, const char* of, const char* contact) {
+            if (std::isinf(static_cast<double>(before)) || after > before / 2) {
+                return;
+            }
+            throw SimulationFailure(after > Scalar(0) ? "the distance to the " + std::string(of) + " would shrink from " +
+                                                            detail::text(before) + " to " + detail::text(after)
+                                                      : std::string(contact));
+        };
+        guard(films_[b].min, film.min, "wall", "the membrane would cross the wall");
+        if (b > 0 && meet(next[b - 1], next[b])) {
+            throw SimulationFailure("bodies " + std::to_string(b - 1) + " and " + std::to_string(b) + " would meet");
+        }
+        guard(films_[b].to_neighbour, film.to_neighbour, "next body", "two bodies would touch");
+    }
+
+    void describe(Attempt& attempt, std::size_t b, const Scalar& dt) const {
+        const Configuration<Scalar>& body = attempt.moment.bodies[b];
+        const InstantType& instant = attempt.moment.instants[b];
+        Record& record = attempt.records[b];
+        record.step = steps() + 1;
+        const std::optional<Scalar> landing = next_landing();
+        record.time = landing && dt == *landing - time_ ? *landing : Scalar(time_ + dt);
+        record.dt = dt;
+        record.position = body.position;
+        record.velocity = instant.velocity;
+        record.residual = instant.deformation_rate / std::max(Scalar(1), scene_.velocity_scale());
+        record.pressure_drop = instant.pressure_drop;
+        record.length = body.shape.z[body.shape.nodes() - 1] - body.shape.z[0];
+        record.max_radius = scene_.discretization().max_radius(body.shape);
+        record.film_thickness_min = attempt.films[b].min;
+        record.film_thickness_mean = attempt.films[b].mean;
+        record.neighbour_distance = attempt.films[b].to_neighbour;
+        if constexpr (SceneType::deformable) {
+            if (scene_.deforms(b)) {
+                record.bending_energy = scene_.discretization().bending_energy(body.shape);
+            }
         }
     }
 
     /// `planned`: the step before it was cut short to land.
-    void accept(Attempt attempt, const Scalar& planned) {
-        using std::abs;
-        const Scalar rate = attempt.record.residual * std::max(Scalar(1), scene_.velocity_scale());
-        const bool accelerating = !history_.empty() && attempt.record.residual > history_.back().residual;
-        // A step that is too long overshoots: the next one goes back. On moved nodes velocities cannot be compared.
-        const bool reversed =
-            motion_.size() > 0 && !history_.back().redistributed && attempt.motion.dot(motion_) < Scalar(0);
-        motion_ = std::move(attempt.motion);
-        time_ = attempt.record.time;
-        configuration_ = std::move(attempt.configuration);
-        film_ = attempt.record.film_thickness_min;
-        history_.push_back(attempt.record);
-        if (params_.time_step) {
-            return;
+    void accept(Attempt attempt, const Scalar& planned, Index rejected) {
+        const Scalar before = residual();
+        time_ = attempt.records.front().time;
+        moment_ = std::move(attempt.moment);
+        films_ = std::move(attempt.films);
+        bool redistributed = false;
+        for (std::size_t b = 0; b < histories_.size(); ++b) {
+            attempt.records[b].rejected = rejected;
+            redistributed = redistributed || attempt.records[b].redistributed;
+            histories_[b].push_back(attempt.records[b]);
         }
-        if (estimates_error()) {
-            const Scalar factor = step_factor(attempt.record.step_error, rate * dt_);
-            dt_ = planned > dt_ ? std::max(planned, Scalar(factor * dt_))
-                                : dt_ * (attempt.record.rejected > 0 ? std::min(Scalar(1), factor) : factor);
-        } else {
-            dt_ = planned;
-            if (reversed) {
-                dt_ /= 2;
-            } else if (!accelerating || rate * dt_ < params_.largest_displacement / 10) {
-                dt_ *= params_.growth;
-            }
-            if (rate * dt_ > params_.largest_displacement) {
-                dt_ = params_.largest_displacement / rate;
-            }
-            const Scalar shear = std::max(attempt.shear_rate, Scalar(abs(history_.back().velocity) / (2 * film_)));
-            if (shear * dt_ > params_.largest_strain) {
-                dt_ = params_.largest_strain / shear;
-            }
-        }
-        dt_ = std::min(dt_, params_.largest_time_step);
+        attempt.report.accelerating = steps() > 1 && residual() > before;
+        control_.accept(attempt.report, planned, rejected > 0);
+        // On moved nodes displacements cannot be compared.
+        motion_ = redistributed ? Vector<Scalar>() : std::move(attempt.motion);
     }
 
     Params params_;
     SceneType scene_;
     Integrator integrator_;
-    Configuration<Scalar> configuration_;
-    std::vector<Record> history_;
+    Control control_;
+    Moment moment_;  // without instants if not known yet
+    std::vector<std::vector<Record>> histories_;
+    std::vector<Measures<Scalar>> measures_;  // initial
+    std::vector<Conserved<Scalar>> conserved_;
+    std::vector<Film> films_;
     Vector<Scalar> motion_;  // of the last step
-    Scalar area_{};
-    Scalar volume_{};
     Scalar time_{};
-    Scalar dt_{};
-    Scalar retry_{};  // the step to try when dt_ fails
-    Scalar film_{};
 };
 
 }  // namespace axistokes

@@ -56,7 +56,9 @@ class LinearElements : public SplineGeometry<S> {
         return LinearElements(std::move(params));
     }
 
-    Surface surface(const Meridian<S>& meridian) const { return linear_surface(meridian); }
+    Surface surface(const Meridian<S>& meridian, SurfaceParts parts = SurfaceParts::all) const {
+        return linear_surface(meridian, parts);
+    }
 
     /// u = G f for targets at the nodes: G is 2n x 2n, f and u are stacked [r; z]; f is a force density (kappa/R0^3), u
     /// a velocity (kappa/(eta R0^2)). Includes the factor 1/(8 pi).

@@ -122,13 +122,15 @@ class LinearSurfaceBuilder {
         s_.nodes = meridian;
     }
 
-    LinearSurface<S> build() {
+    LinearSurface<S> build(SurfaceParts parts) {
         metric();
         volume();
         normals();
-        laplacian();
-        curvatures();
-        tension();
+        if (parts == SurfaceParts::all) {
+            laplacian();
+            curvatures();
+            tension();
+        }
         return std::move(s_);
     }
 
@@ -299,8 +301,8 @@ class LinearSurfaceBuilder {
 
 /// Operators of `meridian`, which must be valid (see validate).
 template <class S>
-LinearSurface<S> linear_surface(const Meridian<S>& meridian) {
-    return detail::LinearSurfaceBuilder<S>(meridian).build();
+LinearSurface<S> linear_surface(const Meridian<S>& meridian, SurfaceParts parts = SurfaceParts::all) {
+    return detail::LinearSurfaceBuilder<S>(meridian).build(parts);
 }
 
 }  // namespace axistokes

@@ -61,7 +61,9 @@ class SpectralMeridian : public SpectralGeometry<S> {
         return SpectralMeridian(std::move(params));
     }
 
-    Surface surface(const Meridian<S>& meridian) const { return spectral_surface(meridian); }
+    Surface surface(const Meridian<S>& meridian, SurfaceParts parts = SurfaceParts::all) const {
+        return spectral_surface(meridian, parts);
+    }
 
     /// u = G f for targets at the nodes: G is 2n x 2n, f and u are stacked [r; z]; f is a force density (kappa/R0^3), u
     /// a velocity (kappa/(eta R0^2)). Includes the factor 1/(8 pi).

@@ -99,12 +99,14 @@ class SpectralSurfaceBuilder {
         s_.nodes = meridian;
     }
 
-    SpectralSurface<S> build() {
+    SpectralSurface<S> build(SurfaceParts parts) {
         metric();
         volume();
-        laplacian();
-        curvatures();
-        tension();
+        if (parts == SurfaceParts::all) {
+            laplacian();
+            curvatures();
+            tension();
+        }
         return std::move(s_);
     }
 
@@ -227,8 +229,8 @@ class SpectralSurfaceBuilder {
 
 /// Operators of `meridian`, which must be valid (see validate).
 template <class S>
-SpectralSurface<S> spectral_surface(const Meridian<S>& meridian) {
-    return detail::SpectralSurfaceBuilder<S>(meridian).build();
+SpectralSurface<S> spectral_surface(const Meridian<S>& meridian, SurfaceParts parts = SurfaceParts::all) {
+    return detail::SpectralSurfaceBuilder<S>(meridian).build(parts);
 }
 
 }  // namespace axistokes

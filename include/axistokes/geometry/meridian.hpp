@@ -24,6 +24,9 @@ struct Meridian {
     Index elements() const { return r.size() - 1; }
 };
 
+/// What is wanted of a surface: weights and normals, or curvatures and operators too.
+enum class SurfaceParts { metric, all };
+
 /// The fewest elements on which every operator of the library is defined.
 inline constexpr Index minimum_elements = 8;
 

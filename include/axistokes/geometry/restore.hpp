@@ -94,4 +94,28 @@ bool restore_area_and_volume(Meridian<S>& meridian, const S& area, const S& volu
     return false;
 }
 
+/// The same for the volume alone: a displacement of all nodes by the same distance along the normal.
+template <class S>
+bool restore_volume(Meridian<S>& meridian, const S& volume, const S& tolerance) {
+    using std::abs;
+    for (int iteration = 0; iteration < 8; ++iteration) {
+        const MeridianSpline<S> spline(meridian);
+        const Measures<S> now = spline.measures();
+        if (abs(now.volume / volume - S(1)) <= tolerance) {
+            return true;
+        }
+        const S shift = (volume - now.volume) / now.area;
+        for (Index i = 0; i < meridian.nodes(); ++i) {
+            const Point<S> normal = spline.at_node(i).normal();
+            const bool pole = i == 0 || i + 1 == meridian.nodes();
+            meridian.r[i] += pole ? S(0) : S(shift * normal.r);
+            meridian.z[i] += shift * normal.z;
+        }
+        if (!meridian.r.allFinite() || !meridian.z.allFinite()) {
+            return false;
+        }
+    }
+    return false;
+}
+
 }  // namespace axistokes

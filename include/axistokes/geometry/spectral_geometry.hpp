@@ -161,18 +161,34 @@ class SpectralGeometry {
                 return true;
             }
             const SpectralCurve<S> curve(shape, *basis);
-            const Vector<S> shift =
-                ((change.constant + change.by_curvature * curve.mean_curvature().array()) / curve.speed.array())
-                    .matrix();
-            shape.r += shift.cwiseProduct(curve.z1);
-            shape.z -= shift.cwiseProduct(curve.r1);
-            shape.r[0] = shape.r[shape.elements()] = 0;
-            if (!shape.r.allFinite() || !shape.z.allFinite()) {
+            Vector<S> shift = change.by_curvature * curve.mean_curvature();
+            shift.array() += change.constant;
+            if (!displace(shape, curve, shift)) {
                 return false;
             }
         }
         return false;
     }
+
+    /// Gives the shape its volume again, if its area may change, by a displacement of all nodes by the same distance along
+    /// the normal; false if that fails.
+    bool restore(Meridian<S>& shape, const S& volume) const {
+        using std::abs;
+        for (int iteration = 0; iteration < 8; ++iteration) {
+            const Measures<S> now = measures(shape);
+            if (abs(now.volume / volume - S(1)) <= 1000 * std::numeric_limits<S>::epsilon()) {
+                return true;
+            }
+            const Vector<S> shift = Vector<S>::Constant(shape.nodes(), S((volume - now.volume) / now.area));
+            if (!displace(shape, SpectralCurve<S>(shape), shift)) {
+                return false;
+            }
+        }
+        return false;
+    }
+
+    /// Points of the curve, twice as many as nodes, these among them.
+    Meridian<S> sampled(const Meridian<S>& shape) const { return resampled(shape, 2 * shape.elements()); }
 
     /// Largest ratio between the spacing of nodes and the wanted one, or its inverse; 1 is perfect.
     S distortion(const Meridian<S>& shape) const {
@@ -225,6 +241,15 @@ class SpectralGeometry {
     Meridian<S> resampled(const Meridian<S>& shape, Index elements) const { return detail::resampled(shape, elements); }
 
   private:
+    /// Along the normals; false if that leads to infinity.
+    static bool displace(Meridian<S>& shape, const SpectralCurve<S>& curve, const Vector<S>& distance) {
+        const Vector<S> shift = distance.cwiseQuotient(curve.speed);
+        shape.r += shift.cwiseProduct(curve.z1);
+        shape.z -= shift.cwiseProduct(curve.r1);
+        shape.r[0] = shape.r[shape.elements()] = 0;
+        return shape.r.allFinite() && shape.z.allFinite();
+    }
+
     /// The wanted number of nodes per unit of t, up to a factor: by curvature, smoothed along the arc.
     Vector<S> node_density(const Meridian<S>& shape) const {
         using std::sqrt;

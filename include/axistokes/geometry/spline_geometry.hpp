@@ -53,6 +53,27 @@ class SplineGeometry {
         return restore_area_and_volume<S>(shape, area, volume, 1000 * std::numeric_limits<S>::epsilon());
     }
 
+    /// Gives the shape its volume again, if its area may change; false if that fails.
+    bool restore(Meridian<S>& shape, const S& volume) const {
+        return restore_volume<S>(shape, volume, 1000 * std::numeric_limits<S>::epsilon());
+    }
+
+    /// The nodes, and the middles of the elements on the curve between them.
+    Meridian<S> sampled(const Meridian<S>& shape) const {
+        const MeridianSpline<S> spline(shape);
+        Meridian<S> result{Vector<S>(2 * shape.elements() + 1), Vector<S>(2 * shape.elements() + 1)};
+        for (Index i = 0; i < shape.nodes(); ++i) {
+            result.r[2 * i] = shape.r[i];
+            result.z[2 * i] = shape.z[i];
+        }
+        for (Index e = 0; e < shape.elements(); ++e) {
+            const Point<S> middle = spline.at(e, S(0.5)).position;
+            result.r[2 * e + 1] = middle.r;
+            result.z[2 * e + 1] = middle.z;
+        }
+        return result;
+    }
+
     /// Moves the nodes along the curve if their spacing has become too uneven; true if it did.
     bool redistribute(Meridian<S>& shape) const {
         if (!(spacing_distortion(shape, meshing_.spacing) > meshing_.largest_distortion)) {

@@ -152,6 +152,8 @@ class FreeSpaceKernel {
   public:
     using Scalar = S;
     static constexpr bool has_regular_part = false;
+    static constexpr bool has_images = false;
+    static constexpr bool laboratory_frame = false;
 
     /// M(target, (r[i], z[i])) for i < n. The four output arrays must not overlap one another or the input.
     void singular(Point<S> target, const S* r, const S* z, Index n, KernelArrays<S> out) const {

@@ -4,14 +4,15 @@
 
 #include "../scene.hpp"
 
+#include <utility>
+#include <vector>
+
 namespace axistokes {
 
-/// Result of one step: the displaced meridian, relative to the moved centroid, and the instant that displaced it.
-template <class S, class InstantType>
+/// Result of one step: the displaced bodies, each meridian relative to its moved centroid, with their tensions.
+template <class S>
 struct Step {
-    Meridian<S> shape;
-    S displacement{};  // of the centroid in the laboratory frame
-    InstantType instant;
+    std::vector<Configuration<S>> bodies;
 };
 
 namespace detail {
@@ -27,14 +28,28 @@ void euler_move(Configuration<S>& now, const InstantType& instant, const S& dt) 
     now.position += dt * instant.velocity;
 }
 
-template <class S, class SceneType>
-Step<S, typename SceneType::InstantType> euler_step(SceneType& scene, const Configuration<S>& start, const S& dt,
-                                                    const S& implicit_time) {
-    auto instant = scene.evaluate(start, implicit_time);
-    Configuration<S> end = start;
-    euler_move(end, instant, dt);
-    const S displacement = dt * instant.velocity;
-    return {std::move(end.shape), displacement, std::move(instant)};
+/// The same for all bodies; with the tensions that moved them.
+template <class S, class Instants>
+void euler_move(std::vector<Configuration<S>>& now, const Instants& instants, const S& dt) {
+    for (std::size_t b = 0; b < now.size(); ++b) {
+        euler_move(now[b], instants[b], dt);
+    }
+}
+
+template <class S, class Instants>
+void take_tensions(std::vector<Configuration<S>>& now, const Instants& instants) {
+    for (std::size_t b = 0; b < now.size(); ++b) {
+        now[b].tension = instants[b].solution.tension;
+    }
+}
+
+template <class SceneType, class S>
+Step<S> semi_implicit_euler_step(SceneType& scene, const typename SceneType::Moment& start, const S& dt) {
+    const auto instants = scene.evaluate(start.frozen, start.bodies, dt);
+    Step<S> step{start.bodies};
+    euler_move(step.bodies, instants, dt);
+    take_tensions(step.bodies, instants);
+    return step;
 }
 
 }  // namespace detail

@@ -10,9 +10,12 @@ namespace axistokes {
 struct ExplicitEuler {
     static constexpr int order = 1;
 
-    template <class S, class SceneType>
-    auto step(SceneType& scene, const Configuration<S>& start, const S& dt) const {
-        return detail::euler_step(scene, start, dt, S(0));
+    template <class SceneType, class S>
+    Step<S> step(SceneType&, const typename SceneType::Moment& start, const S& dt) const {
+        Step<S> step{start.bodies};
+        detail::euler_move(step.bodies, start.instants, dt);
+        detail::take_tensions(step.bodies, start.instants);
+        return step;
     }
 };
 

@@ -9,6 +9,7 @@
 // nodes may be redistributed between two steps. All the rows start from one geometry, which is evaluated once.
 #pragma once
 
+#include "../geometry/conserved.hpp"
 #include "euler.hpp"
 
 #include <utility>
@@ -18,77 +19,131 @@ namespace axistokes {
 
 /// As Step, with an estimate of the step's error: the largest normal distance (in R0) between the result and the one of
 /// the order below.
-template <class S, class InstantType>
-struct EstimatedStep : Step<S, InstantType> {
+template <class S>
+struct EstimatedStep : Step<S> {
     S error{};
 };
 
 namespace detail {
 
-template <class S, class SceneType>
-void restore_measures(SceneType& scene, Configuration<S>& now, const Measures<S>& kept) {
-    if constexpr (SceneType::deformable) {
-        const Index n = now.shape.nodes();
-        if (!now.shape.r.allFinite() || !now.shape.z.allFinite() ||
-            !(now.shape.r.segment(1, n - 2).minCoeff() > S(0))) {
+/// What the bodies conserve, by the measures of the discretisation.
+template <class SceneType>
+std::vector<Conserved<typename SceneType::Scalar>> conserved_by(const SceneType& scene,
+                                                                const typename SceneType::State& state) {
+    std::vector<Conserved<typename SceneType::Scalar>> conserved;
+    for (std::size_t b = 0; b < state.size(); ++b) {
+        conserved.emplace_back(scene.discretization().measures(state[b].shape), keeps_area(scene.law(b)));
+    }
+    return conserved;
+}
+
+template <class SceneType, class S>
+void restore_all(const SceneType& scene, std::vector<Configuration<S>>& state,
+                 const std::vector<Conserved<S>>& conserved) {
+    for (std::size_t b = 0; b < state.size(); ++b) {
+        Meridian<S>& shape = state[b].shape;
+        if (!scene.deforms(b)) {
+            continue;
+        }
+        if (!shape.r.allFinite() || !shape.z.allFinite() ||
+            !(shape.r.segment(1, shape.nodes() - 2).minCoeff() > S(0))) {
             throw SimulationFailure("extrapolated step: a node crossed the axis");
         }
-        if (!scene.discretization().restore(now.shape, kept.area, kept.volume)) {
-            throw SimulationFailure("extrapolated step: area and volume could not be restored");
+        if (!conserved[b].restore(scene.discretization(), shape)) {
+            throw SimulationFailure("extrapolated step: what the interface conserves could not be restored");
         }
     }
 }
 
-/// `count` Euler steps, the first of which is known: r, z and the displacement, stacked. Each ends with its area and
-/// volume restored: what is extrapolated is then the motion on the surface of constant area and volume, as the
-/// discretisation measures them, and the correction that ends the whole step is as small as the step's error. The
-/// tension that stabilises a step stays that of `now`: one that changed from step to step would put terms (H/j)^3 of
-/// its own into the table.
-template <class S, class SceneType, class InstantType>
-Vector<S> euler_steps(SceneType& scene, Configuration<S> now, const InstantType& first, const Measures<S>& kept,
-                      int count, const S& dt) {
-    const S origin = now.position;
-    euler_move(now, first, dt);
-    restore_measures(scene, now, kept);
-    for (int i = 1; i < count; ++i) {
-        const InstantType next = scene.evaluate(now, dt);
-        euler_move(now, next, dt);
-        restore_measures(scene, now, kept);
+/// r, z and the position, from that at the start on, of all bodies in one vector, and back.
+template <class S>
+Vector<S> stacked(const std::vector<Configuration<S>>& state, const std::vector<Configuration<S>>& start) {
+    Index size = 0;
+    for (const Configuration<S>& body : state) {
+        size += 2 * body.shape.nodes() + 1;
     }
-    const Index n = now.shape.nodes();
-    Vector<S> result(2 * n + 1);
-    result << now.shape.r, now.shape.z, now.position - origin;
-    return result;
+    Vector<S> all(size);
+    Index begin = 0;
+    for (std::size_t b = 0; b < state.size(); ++b) {
+        const Index n = state[b].shape.nodes();
+        all.segment(begin, n) = state[b].shape.r;
+        all.segment(begin + n, n) = state[b].shape.z;
+        all[begin + 2 * n] = state[b].position - start[b].position;
+        begin += 2 * n + 1;
+    }
+    return all;
+}
+
+template <class S>
+void unstack(const Vector<S>& all, std::vector<Configuration<S>>& state) {
+    Index begin = 0;
+    for (Configuration<S>& body : state) {
+        const Index n = body.shape.nodes();
+        body.shape.r = all.segment(begin, n);
+        body.shape.z = all.segment(begin + n, n);
+        body.position += all[begin + 2 * n];
+        begin += 2 * n + 1;
+    }
+}
+
+/// Largest normal displacement of a body's nodes relative to its centroid, or of a body relative to the first one.
+template <class SceneType, class S>
+S largest_normal(const typename SceneType::Moment& start, const Vector<S>& displacement) {
+    using std::abs;
+    S largest = 0;
+    const auto consider = [&](const S& value) {
+        // NaN must not get lost.
+        largest = abs(value) <= largest ? largest : S(abs(value));
+    };
+    Index begin = 0;
+    for (const auto& body : start.frozen.bodies) {
+        const Index n = body.surface.size();
+        for (Index i = 0; i < n; ++i) {
+            consider(body.surface.normal_r[i] * displacement[begin + i] +
+                     body.surface.normal_z[i] * displacement[begin + n + i]);
+        }
+        consider(displacement[begin + 2 * n] - displacement[2 * start.frozen.bodies.front().surface.size()]);
+        begin += 2 * n + 1;
+    }
+    return largest;
+}
+
+/// `count` Euler steps, the first of which is known. Each ends with what the bodies conserve restored: what is
+/// extrapolated is then the motion on the surface of constant area and volume, as the discretisation measures them, and
+/// the correction that ends the whole step is as small as the step's error. The tensions that stabilise a step stay
+/// those of `now`: ones that changed from step to step would put terms (H/j)^3 of their own into the table.
+template <class SceneType, class S>
+Vector<S> euler_steps(SceneType& scene, std::vector<Configuration<S>> now, const typename SceneType::Instants& first,
+                      const std::vector<Conserved<S>>& conserved, int count, const S& dt) {
+    const std::vector<Configuration<S>> start = now;
+    euler_move(now, first, dt);
+    restore_all(scene, now, conserved);
+    for (int i = 1; i < count; ++i) {
+        euler_move(now, scene.evaluate(now, dt), dt);
+        restore_all(scene, now, conserved);
+    }
+    return stacked(now, start);
 }
 
 /// A step of an order of at least 2.
-template <class S, class SceneType>
-EstimatedStep<S, typename SceneType::InstantType> extrapolated_step(SceneType& scene, const Configuration<S>& start,
-                                                                    const S& dt, int order) {
-    const Measures<S> kept = scene.discretization().measures(start.shape);
-    const typename SceneType::Frozen frozen = scene.freeze(start);
+template <class SceneType, class S>
+EstimatedStep<S> extrapolated_step(SceneType& scene, const typename SceneType::Moment& start, const S& dt, int order) {
+    const std::vector<Conserved<S>> conserved = conserved_by(scene, start.bodies);
     std::vector<Vector<S>> row(static_cast<std::size_t>(order));  // T(j, 1), ..., T(j, j)
     std::vector<Vector<S>> previous = row;
-    EstimatedStep<S, typename SceneType::InstantType> result;
+    EstimatedStep<S> result{{start.bodies}, S(0)};
     for (int j = 1; j <= order; ++j) {
         std::swap(row, previous);
-        result.instant = scene.evaluate(frozen, start, dt / S(j));
-        row[0] = euler_steps(scene, start, result.instant, kept, j, S(dt / S(j)));
+        const auto first = scene.evaluate(start.frozen, start.bodies, S(dt / S(j)));
+        row[0] = euler_steps(scene, start.bodies, first, conserved, j, S(dt / S(j)));
         for (int k = 1; k < j; ++k) {
             const auto from = static_cast<std::size_t>(k - 1);
             row[from + 1] = row[from] + (row[from] - previous[from]) * (S(j - k) / S(k));
         }
+        take_tensions(result.bodies, first);
     }
-    const Index n = start.shape.nodes();
-    const Vector<S>& best = row.back();
-    result.shape = {best.head(n), best.segment(n, n)};
-    result.displacement = best[2 * n];
-    const Vector<S> difference = best - row[row.size() - 2];
-    const auto& surface = result.instant.surface;
-    result.error =
-        (surface.normal_r.cwiseProduct(difference.head(n)) + surface.normal_z.cwiseProduct(difference.segment(n, n)))
-            .cwiseAbs()
-            .maxCoeff();
+    unstack(row.back(), result.bodies);
+    result.error = largest_normal<SceneType, S>(start, row.back() - row[row.size() - 2]);
     return result;
 }
 
@@ -99,8 +154,8 @@ requires(Order >= 2) class ExtrapolatedEuler {
   public:
     static constexpr int order = Order;
 
-    template <class S, class SceneType>
-    auto step(SceneType& scene, const Configuration<S>& start, const S& dt) const {
+    template <class SceneType, class S>
+    EstimatedStep<S> step(SceneType& scene, const typename SceneType::Moment& start, const S& dt) const {
         return detail::extrapolated_step(scene, start, dt, Order);
     }
 };
@@ -129,11 +184,10 @@ class ExtrapolatedEulerOfOrder {
 
     bool estimates_error() const { return order > 1; }
 
-    template <class S, class SceneType>
-    EstimatedStep<S, typename SceneType::InstantType> step(SceneType& scene, const Configuration<S>& start,
-                                                           const S& dt) const {
+    template <class SceneType, class S>
+    EstimatedStep<S> step(SceneType& scene, const typename SceneType::Moment& start, const S& dt) const {
         if (order == 1) {
-            return {detail::euler_step(scene, start, dt, dt), S(0)};
+            return {detail::semi_implicit_euler_step(scene, start, dt), S(0)};
         }
         return detail::extrapolated_step(scene, start, dt, order);
     }

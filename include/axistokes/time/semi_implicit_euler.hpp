@@ -10,9 +10,9 @@ namespace axistokes {
 struct SemiImplicitEuler {
     static constexpr int order = 1;
 
-    template <class S, class SceneType>
-    auto step(SceneType& scene, const Configuration<S>& start, const S& dt) const {
-        return detail::euler_step(scene, start, dt, dt);
+    template <class SceneType, class S>
+    Step<S> step(SceneType& scene, const typename SceneType::Moment& start, const S& dt) const {
+        return detail::semi_implicit_euler_step(scene, start, dt);
     }
 };
 

@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace axistokes {
 
@@ -41,6 +42,8 @@ class WallMesh {
     const Profile& profile() const { return profile_; }
     const Params& params() const { return params_; }
     Scalar radius(const Scalar& z) const { return Mesh::channel_radius(profile_, z); }
+    /// Radial distance of a point from the wall, negative beyond it.
+    Scalar gap(const Point<Scalar>& x) const { return radius(x.z) - x.r; }
 
     /// Velocity on the axis of Poiseuille flow in a tube as wide as the channel is at z.
     Scalar centreline_velocity(const Scalar& z) const { return peak_velocity(radius(z)); }
@@ -66,33 +69,41 @@ class WallMesh {
     /// How many meshes there have been: one, until the particle moves away from where the mesh is fine.
     Index meshes() const { return meshes_; }
 
-    /// The particle's mobility and background velocity in the presence of the wall, from those without it.
-    /// Throws SimulationFailure when a node of the particle is not inside the wall.
+    /// Turns the bodies' mobility and background velocity without the wall into those in its presence. Returns the
+    /// undisturbed flow of flow rate 1 at the nodes. Throws SimulationFailure when a node is not inside the wall.
     template <class Discretization, class Kernel>
-    requires(!ConfiningKernel<Kernel>) void confine(const Discretization& discretization, const Kernel& kernel,
-                                                    const Meridian<Scalar>& particle, Matrix<Scalar>& mobility,
-                                                    Vector<Scalar>& background) {
-        const Meridian<Scalar> local = prepare(kernel, particle);
-        const Matrix<Scalar> to_particle = mesh_->curve().single_layer_at(local, kernel);
-        const Matrix<Scalar> to_wall = discretization.single_layer_at(mesh_->curve().nodes(), local, kernel);
-        mobility -= to_particle * lu_.solve(to_wall);
-        unit_flow_ = to_particle * unit_traction_;
-        background += params_.flow_rate * unit_flow_;
-    }
-
-    /// What the force density on the particle that was confined last adds to the pressure drop from the lower to the
-    /// upper end (upstream minus downstream for a positive flow rate): -Int f . u dA, u the undisturbed flow of flow
-    /// rate 1 (reciprocal theorem).
-    template <class Surface>
-    Scalar pressure_drop(const Surface& surface, const Vector<Scalar>& force) const {
-        const Index n = surface.size();
-        return -surface.weight.dot(
-            (unit_flow_.head(n).cwiseProduct(force.head(n)) + unit_flow_.tail(n).cwiseProduct(force.tail(n))).eval());
+    requires(!Kernel::has_images) Vector<Scalar> confine(const Discretization& discretization, const Kernel& kernel,
+                                                         const std::vector<Meridian<Scalar>>& bodies,
+                                                         Matrix<Scalar>& mobility, Vector<Scalar>& background) {
+        const std::vector<Meridian<Scalar>> local = prepare(kernel, bodies);
+        const Meridian<Scalar>& wall = mesh_->curve().nodes();
+        Vector<Scalar> unit_flow(background.size());
+        std::vector<Matrix<Scalar>> from_wall;
+        for (const Meridian<Scalar>& body : local) {
+            from_wall.push_back(mesh_->curve().single_layer_at(body, kernel));
+        }
+        Index source = 0;
+        for (const Meridian<Scalar>& body : local) {
+            const Matrix<Scalar> tractions = lu_.solve(discretization.single_layer_at(wall, body, kernel));
+            Index target = 0;
+            for (const Matrix<Scalar>& g : from_wall) {
+                mobility.block(target, source, g.rows(), tractions.cols()) -= g * tractions;
+                target += g.rows();
+            }
+            source += tractions.cols();
+        }
+        Index target = 0;
+        for (const Matrix<Scalar>& g : from_wall) {
+            unit_flow.segment(target, g.rows()) = g * unit_traction_;
+            target += g.rows();
+        }
+        background += params_.flow_rate * unit_flow;
+        return unit_flow;
     }
 
     /// The flow with a given force density on a particle, for evaluation anywhere in the channel.
     template <class Discretization, class Kernel>
-    requires(!ConfiningKernel<Kernel>) ChannelField<Discretization, Kernel> field(const Discretization& discretization,
+    requires(!Kernel::has_images) ChannelField<Discretization, Kernel> field(const Discretization& discretization,
                                                                                   const Kernel& kernel,
                                                                                   const Meridian<Scalar>& particle,
                                                                                   const Vector<Scalar>& force) {
@@ -116,9 +127,33 @@ class WallMesh {
         return 2 * params_.flow_rate / (detail::pi_value<Scalar>() * radius * radius);
     }
 
-    /// A straight tube's mesh goes with the particle.
+    /// A straight tube's mesh goes with the bodies.
     static Scalar centre(const Meridian<Scalar>& particle) {
         return Profile::uniform ? Scalar((particle.z.minCoeff() + particle.z.maxCoeff()) / 2) : Scalar(0);
+    }
+
+    static Meridian<Scalar> joined(const std::vector<Meridian<Scalar>>& bodies) {
+        Meridian<Scalar> all;
+        for (const Meridian<Scalar>& body : bodies) {
+            const Index old = all.nodes();
+            all.r.conservativeResize(old + body.nodes());
+            all.z.conservativeResize(old + body.nodes());
+            all.r.tail(body.nodes()) = body.r;
+            all.z.tail(body.nodes()) = body.z;
+        }
+        return all;
+    }
+
+    /// The bodies in the mesh's coordinates, which is made for all of their nodes.
+    template <class Kernel>
+    std::vector<Meridian<Scalar>> prepare(const Kernel& kernel, const std::vector<Meridian<Scalar>>& bodies) {
+        const Meridian<Scalar> all = joined(bodies);
+        prepare(kernel, all);
+        std::vector<Meridian<Scalar>> local = bodies;
+        for (Meridian<Scalar>& body : local) {
+            body.z.array() -= centre(all);
+        }
+        return local;
     }
 
     /// The particle in the mesh's coordinates, after making sure that there is a mesh for it.
@@ -157,7 +192,6 @@ class WallMesh {
     std::optional<Mesh> mesh_;
     Eigen::PartialPivLU<Matrix<Scalar>> lu_;
     Vector<Scalar> unit_traction_;  // of the empty channel at flow rate 1
-    Vector<Scalar> unit_flow_;      // at the particle confined last
     Index meshes_ = 0;
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Derivative of a vesicle's normal velocity with respect to normal displacements of its nodes (docs/stationary.md).
+// Derivative of an interface's normal velocity with respect to normal displacements of its nodes, whatever its law
+// (docs/stationary.md).
 #pragma once
 
+#include "../equation/flux.hpp"
 #include "../geometry/series_transfer.hpp"
-#include "../membrane/flux.hpp"
 #include "../scene.hpp"
 #include "coarse_scene.hpp"
 
@@ -36,13 +37,12 @@ Matrix<typename SceneType::Scalar> mobility_change(SceneType& scene,
     using S = typename SceneType::Scalar;
     const Index n = configuration.shape.nodes();
     const auto velocity = [&](const Configuration<S>& at, auto& surface) {
-        auto frozen = scene.freeze(at);
-        complete_rank<S>(frozen.surface, frozen.mobility);
+        auto frozen = scene.freeze({at});
+        surface = std::move(frozen.bodies.front().surface);
         Vector<S> u = frozen.mobility * force;
         if constexpr (std::decay_t<decltype(scene.wall())>::present) {
-            u += frozen.background - scene.background_velocity(at);
+            u += frozen.background - without_flux<S>(surface, scene.background_velocity(at));
         }
-        surface = std::move(frozen.surface);
         return u;
     };
     typename SceneType::Surface surface;
@@ -113,9 +113,9 @@ class MobilityChange {
     Matrix<S> change_;
 };
 
-/// d(normal velocity relative to the centroid)/d(normal displacement) of u = u_inf + G (F + load + T gamma), D u = 0.
-/// The derivatives of F, T, D, of the load, of u_inf and of the normals are one-sided differences, without assemblies;
-/// that of G comes in `mobility_change`, 2n x n.
+/// d(normal velocity relative to the centroid)/d(normal displacement) of u = u_inf + G (F + load + T gamma), D u = 0, or
+/// without T and D for a law without that constraint. The derivatives of F, T, D, of the load, of u_inf and of the normals
+/// are one-sided differences, without assemblies; that of G comes in `mobility_change`, 2n x n.
 template <class SceneType>
 Matrix<typename SceneType::Scalar> velocity_jacobian(const SceneType& scene, const typename SceneType::Frozen& frozen,
                                                      const Configuration<typename SceneType::Scalar>& configuration,
@@ -123,37 +123,51 @@ Matrix<typename SceneType::Scalar> velocity_jacobian(const SceneType& scene, con
                                                      const Matrix<typename SceneType::Scalar>& mobility_change) {
     using std::sqrt;
     using S = typename SceneType::Scalar;
-    const auto& surface = frozen.surface;
+    const auto& surface = frozen.bodies.front().surface;
     const Index n = surface.size();
     const Vector<S>& tension = instant.solution.tension;
-    const auto& membrane = scene.membrane();
-    const Vector<S> force = membrane.force(surface, tension) + frozen.load;
+    const bool inextensible = tension.size() > 0;
+    const auto force_on = [&](const auto& at) {
+        Vector<S> force = elastic_force<S>(scene.law(), at);
+        if (inextensible) {
+            force += at.tension_force * tension;
+        }
+        return force;
+    };
+    const Vector<S> force = force_on(surface) + frozen.bodies.front().load;
     const Vector<S> flow = without_flux<S>(surface, scene.background_velocity(configuration));
     Vector<S> motion = instant.solution.velocity;  // relative to the centroid: 0 in the stationary state
     motion.tail(n).array() -= instant.velocity;
-    const Vector<S> stretch = surface.divergence * motion;
     const Vector<S> normal = relative_normal_velocity<S>(surface, configuration.shape.z, motion).second;
     const S step = sqrt(std::numeric_limits<S>::epsilon());
     Matrix<S> force_change(2 * n, n);
     Matrix<S> change(2 * n, n);
-    Matrix<S> stretch_change(surface.divergence.rows(), n);
+    Matrix<S> stretch_change(inextensible ? surface.divergence.rows() : 0, n);
     Matrix<S> jacobian(n, n);
+    Vector<S> stretch;
+    if (inextensible) {
+        stretch = surface.divergence * motion;
+    }
     for (Index j = 0; j < n; ++j) {
         Configuration<S> moved = configuration;
         displace<S>(moved.shape, surface, step * Vector<S>::Unit(n, j));
-        const auto at = scene.discretization().surface(moved.shape);
-        force_change.col(j) = (membrane.force(at, tension) + scene.normal_load(moved, at) - force) / step;
+        const auto at = scene.discretization().surface(moved.shape, SurfaceParts::all);
+        force_change.col(j) = (force_on(at) + scene.normal_load(moved, at) - force) / step;
         change.col(j) = (without_flux<S>(at, scene.background_velocity(moved)) - flow) / step;
-        stretch_change.col(j) = (at.divergence * motion - stretch) / step;
+        if (inextensible) {
+            stretch_change.col(j) = (at.divergence * motion - stretch) / step;
+        }
         jacobian.col(j) = (relative_normal_velocity<S>(at, moved.shape.z, motion).second - normal) / step;
     }
-    Matrix<S> g = frozen.mobility;
-    complete_rank<S>(surface, g);
-    change += g * force_change + mobility_change;
-    const Matrix<S> pull = g * surface.tension_force;
-    const Matrix<S> divergence_of_pull = surface.divergence * pull;
-    const Matrix<S> divergence_of_change = surface.divergence * change + stretch_change;
-    change -= pull * divergence_of_pull.partialPivLu().solve(divergence_of_change);
+    const Matrix<S>& g = frozen.mobility;
+    change += g * force_change;
+    change += mobility_change;
+    if (inextensible) {
+        const Matrix<S> pull = g * surface.tension_force;
+        const Matrix<S> divergence_of_pull = surface.divergence * pull;
+        const Matrix<S> divergence_of_change = surface.divergence * change + stretch_change;
+        change -= pull * divergence_of_pull.partialPivLu().solve(divergence_of_change);
+    }
 
     Matrix<S> normal_change =
         surface.normal_r.asDiagonal() * change.topRows(n) + surface.normal_z.asDiagonal() * change.bottomRows(n);

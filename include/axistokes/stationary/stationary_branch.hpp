@@ -14,8 +14,9 @@
 
 namespace axistokes {
 
-/// `scene(p)`, `area(p)` and `volume(p)` describe the vesicle at parameter p. The unknowns are normal displacements of
-/// the nodes and three multipliers that vanish.
+/// `scene(p)`, `area(p)` and `volume(p)` describe the body at parameter p (its law decides whether the area
+/// matters). The unknowns are normal displacements of
+/// the nodes and multipliers of the constraints, which vanish.
 template <class SceneType>
 requires(SceneType::deformable) class StationaryBranch {
   public:
@@ -59,41 +60,45 @@ requires(SceneType::deformable) class StationaryBranch {
 
     /// w, and the constraints, which all shapes meet.
     Vector<Scalar> defect(const Point& point) const {
-        Vector<Scalar> defect = Vector<Scalar>::Zero(point.state.velocity.size() + 3);
+        Vector<Scalar> defect = Vector<Scalar>::Zero(point.state.velocity.size() + (keeps_area(point) ? 3 : 2));
         defect.head(point.state.velocity.size()) = point.state.velocity;
         return defect;
     }
 
     Matrix<Scalar> derivative(const Point& point) {
-        const auto& surface = point.state.frozen.surface;
+        const auto& surface = point.state.frozen.bodies.front().surface;
         const auto& configuration = point.state.configuration;
         const Index n = surface.size();
         detail::MobilityChange<SceneType> change;
         SceneType coarse = detail::loosened_scene(*point.scene, Scalar(1e-4));
         const Index degree = std::min(params_.change_degree, n - 1);
         change.find(coarse, configuration, point.state.instant.solution.force, degree);
-        Matrix<Scalar> derivative(n + 3, n + 4);
-        derivative.leftCols(n + 3) =
+        const Matrix<Scalar> system =
             detail::bordered<Scalar>(surface, configuration.shape.z,
                                      detail::velocity_jacobian(*point.scene, point.state.frozen, configuration,
-                                                               point.state.instant, change.at_nodes(n)));
+                                                               point.state.instant, change.at_nodes(n)),
+                                     keeps_area(point));
+        const Index m = system.rows();
+        Matrix<Scalar> derivative = Matrix<Scalar>::Zero(m, m + 1);
+        derivative.leftCols(m) = system;
         const Scalar step = params_.parameter_step;
         const Scalar p = point.parameter;
         detail::StationaryPoint<SceneType> there;
         there.configuration = configuration;
         SceneType scene = scene_(p + step);
         detail::evaluate(scene, there);
-        derivative.col(n + 3).head(n) = (there.velocity - point.state.velocity) / step;
-        derivative(n, n + 3) = -(volume_(p + step) - volume_(p)) / step;
-        derivative(n + 1, n + 3) = -(area_(p + step) - area_(p)) / step;
-        derivative(n + 2, n + 3) = 0;
+        derivative.col(m).head(n) = (there.velocity - point.state.velocity) / step;
+        derivative(n, m) = -(volume_(p + step) - volume_(p)) / step;
+        if (keeps_area(point)) {
+            derivative(n + 2, m) = -(area_(p + step) - area_(p)) / step;
+        }
         return derivative;
     }
 
     std::optional<Point> moved(const Point& point, const Vector<Scalar>& dx, const Scalar& dp) const {
         Configuration<Scalar> configuration = point.state.configuration;
         const Index n = configuration.shape.nodes();
-        detail::displace<Scalar>(configuration.shape, point.state.frozen.surface, dx.head(n));
+        detail::displace<Scalar>(configuration.shape, point.state.frozen.bodies.front().surface, dx.head(n));
         return evaluated(point.parameter + dp, std::move(configuration));
     }
 
@@ -115,19 +120,22 @@ requires(SceneType::deformable) class StationaryBranch {
 
     Scalar growth(const Point& point, const Matrix<Scalar>& derivative) const {
         const Index n = point.state.velocity.size();
-        return detail::growth_rates<Scalar>(point.state.frozen.surface, point.state.configuration.shape.z,
-                                            derivative.topLeftCorner(n, n))
+        return detail::growth_rates<Scalar>(point.state.frozen.bodies.front().surface, point.state.configuration.shape.z,
+                                            derivative.topLeftCorner(n, n), keeps_area(point))
             .front()
             .real();
     }
 
   private:
+    static bool keeps_area(const Point& point) { return detail::keeps_area(point.scene->law()); }
+
     std::optional<Point> evaluated(const Scalar& p, Configuration<Scalar> configuration) const {
         Point point;
         point.parameter = p;
         point.scene = std::make_shared<SceneType>(scene_(p));
         point.state.configuration = std::move(configuration);
-        if (!detail::settle(*point.scene, point.state.configuration, area_(p), volume_(p))) {
+        const auto conserved = detail::conserved_in(*point.scene, Scalar(area_(p)), Scalar(volume_(p)));
+        if (!detail::settle(*point.scene, point.state.configuration, conserved)) {
             return std::nullopt;
         }
         detail::evaluate(*point.scene, point.state);

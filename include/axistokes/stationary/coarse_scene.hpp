@@ -25,7 +25,7 @@ Part loosened(const Part& part, const S& tolerance) {
 
 template <class SceneType, class S>
 SceneType loosened_scene(const SceneType& scene, const S& tolerance) {
-    return SceneType(loosened(scene.kernel(), tolerance), loosened(scene.discretization(), tolerance), scene.membrane(),
+    return SceneType(loosened(scene.kernel(), tolerance), loosened(scene.discretization(), tolerance), scene.laws(),
                      scene.flow(), scene.solver(), scene.wall());
 }
 

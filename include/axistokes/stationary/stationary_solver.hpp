@@ -109,7 +109,7 @@ requires(SceneType::deformable) class StationarySolver {
     /// Growth rates of small axisymmetric disturbances that keep area, volume and the centroid, largest real part
     /// first: the eigenvalues of dw/dphi on these disturbances. The state is stable if all are negative.
     std::vector<std::complex<Scalar>> growth_rates(const State& state) {
-        const auto frozen = scene_.freeze(state.configuration);
+        const auto frozen = scene_.freeze({state.configuration});
         SceneType accurate = detail::loosened_scene(scene_, rates_quadrature());
         const auto rates_with = [&](Index degree) {
             detail::MobilityChange<SceneType> change;
@@ -117,7 +117,8 @@ requires(SceneType::deformable) class StationarySolver {
             return detail::growth_rates<Scalar>(
                 state.instant.surface, state.configuration.shape.z,
                 detail::velocity_jacobian(scene_, frozen, state.configuration, state.instant,
-                                          change.at_nodes(state.instant.surface.size())));
+                                          change.at_nodes(state.instant.surface.size())),
+                keeps_area());
         };
         const Index finest = state.configuration.shape.elements();
         Index degree = std::min(coarsest_rates, finest);
@@ -141,11 +142,16 @@ requires(SceneType::deformable) class StationarySolver {
                                disturbed(state, -step * Vector<Scalar>::Unit(n, j))) /
                               (2 * step);
         }
-        return detail::growth_rates<Scalar>(surface, state.configuration.shape.z, jacobian);
+        return detail::growth_rates<Scalar>(surface, state.configuration.shape.z, jacobian, keeps_area());
     }
 
   private:
     using Point = detail::StationaryPoint<SceneType>;
+
+    bool keeps_area() const { return detail::keeps_area(scene_.law()); }
+    static const typename SceneType::Surface& surface_of(const Point& point) {
+        return point.frozen.bodies.front().surface;
+    }
 
     /// Least degree and residual of a solution that is a first guess.
     static constexpr Index least_degree = 12;
@@ -171,7 +177,8 @@ requires(SceneType::deformable) class StationarySolver {
         Point point;
         point.configuration.shape = shape;
         scene.discretization().redistribute(point.configuration.shape);
-        if (!detail::settle(scene, point.configuration, area, volume)) {
+        const Conserved<Scalar> conserved = detail::conserved_in(scene, area, volume);
+        if (!detail::settle(scene, point.configuration, conserved)) {
             throw SimulationFailure("stationary state: the first shape cannot be given the area " + detail::text(area) +
                                     " and the volume " + detail::text(volume));
         }
@@ -190,7 +197,7 @@ requires(SceneType::deformable) class StationarySolver {
             ++state.jacobians;
             if (params_.only_stable) {
                 const auto& z = point.configuration.shape.z;
-                state.growth = detail::growth_rates<Scalar>(point.frozen.surface, z, jacobian).front().real();
+                state.growth = detail::growth_rates<Scalar>(surface_of(point), z, jacobian, keeps_area()).front().real();
                 growth = std::max(Scalar(0), state.growth);
             }
         };
@@ -231,8 +238,8 @@ requires(SceneType::deformable) class StationarySolver {
             }
             Point trial;
             trial.configuration = point.configuration;
-            detail::displace<Scalar>(trial.configuration.shape, point.frozen.surface, step);
-            const bool usable = detail::settle(scene, trial.configuration, area, volume);
+            detail::displace<Scalar>(trial.configuration.shape, surface_of(point), step);
+            const bool usable = detail::settle(scene, trial.configuration, conserved);
             bool moved = false;
             if (usable) {
                 moved = scene.discretization().redistribute(trial.configuration.shape);
@@ -290,17 +297,17 @@ requires(SceneType::deformable) class StationarySolver {
     static Vector<Scalar> newton_step(const Point& point, Matrix<Scalar> system, const Scalar& shift) {
         const Index n = point.velocity.size();
         system.diagonal().head(n).array() -= shift;
-        Vector<Scalar> rhs = Vector<Scalar>::Zero(n + 3);
+        Vector<Scalar> rhs = Vector<Scalar>::Zero(system.rows());
         rhs.head(n) = -point.velocity;
         return system.partialPivLu().solve(rhs).head(n);
     }
 
     /// The step with the least shift, from `least` on, whose displacements keep to the limit.
-    static Vector<Scalar> bounded_step(const Point& point, const Matrix<Scalar>& jacobian, const Scalar& least,
-                                       const Scalar& limit) {
+    Vector<Scalar> bounded_step(const Point& point, const Matrix<Scalar>& jacobian, const Scalar& least,
+                                const Scalar& limit) const {
         using std::sqrt;
         const Matrix<Scalar> system =
-            detail::bordered<Scalar>(point.frozen.surface, point.configuration.shape.z, jacobian);
+            detail::bordered<Scalar>(surface_of(point), point.configuration.shape.z, jacobian, keeps_area());
         Vector<Scalar> step = newton_step(point, system, least);
         if (step.cwiseAbs().maxCoeff() <= limit) {
             return step;

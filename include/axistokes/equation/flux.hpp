@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The single layer's null space: a uniform pressure moves nothing, and no force creates a flux through a closed surface.
+#pragma once
+
+#include "../core.hpp"
+
+namespace axistokes::detail {
+
+/// A field at the nodes without its mean normal part: a velocity without flux, or a force density without the uniform
+/// pressure in it.
+template <class S, class Surface>
+Vector<S> without_flux(const Surface& surface, const Vector<S>& field) {
+    const Vector<S> n = surface.normals();
+    return field - (surface.flux(field) / surface.flux(n)) * n;
+}
+
+/// Rows, first or also columns, of a body whose nodes start at `begin` (two for each node, r and z stacked): removes the
+/// mean normal force from what `mobility` is applied to.
+template <class S, class Surface>
+void ignore_pressure(const Surface& surface, Index begin, Matrix<S>& mobility) {
+    const Vector<S> n = surface.normals();
+    const Vector<S> mean = surface.volume_gradient / surface.flux(n);
+    const Vector<S> moved = mobility.middleCols(begin, n.size()) * n;
+    for (Index j = 0; j < n.size(); ++j) {
+        mobility.col(begin + j) -= mean[j] * moved;
+    }
+}
+
+/// Removes the flux through that body from what `mobility` returns.
+template <class S, class Surface>
+void stop_flux(const Surface& surface, Index begin, Matrix<S>& mobility) {
+    const Vector<S> n = surface.normals();
+    const Vector<S> mean = surface.volume_gradient / surface.flux(n);
+    for (Index j = 0; j < mobility.cols(); ++j) {
+        const S flux = mean.dot(mobility.col(j).segment(begin, n.size()));
+        mobility.col(j).segment(begin, n.size()) -= flux * n;
+    }
+}
+
+}  // namespace axistokes::detail

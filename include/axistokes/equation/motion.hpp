@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+// The one place where the equations of a scene's bodies are assembled and solved (docs/vesicle.md).
+//
+// With G the single layer of all nodes of all bodies, the velocities are u = u_inf + G f, and each body adds what its
+// law says of f and u:
+//   law          f = f(x) + load + t F u,        t the implicit time, F the law's linearisation,
+//   inextensible f += T gamma,  D u = 0,         T, D the surface's tension force and divergence,
+//   rigid        u = U e_z,                      U given, or Int f_z dA = Int load_z dA.
+// Unknowns are u where f depends on it, gamma, and f and U of a rigid body: with y all of them, u = u_0 + V y.
+//
+// G maps normals to 0 and creates no flux through closed surfaces; a discrete one does so up to its error, which would
+// act as an arbitrary pressure and as a leak: G is corrected for both at deformable bodies. The traction of a rigid
+// body is determined up to a multiple of n: its mean normal part is set to zero by adding n (dV/dx)^T / A to G.
+#pragma once
+
+#include "../membrane/law.hpp"
+#include "flux.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace axistokes {
+
+/// Velocities and forces of one body; vectors are stacked [r; z] except the tension, which lives where the surface puts
+/// it. Empty where the law has no such thing.
+template <class S>
+struct MobilitySolution {
+    Vector<S> velocity;
+    Vector<S> force;    // total force density of the body on the fluid, the background's load included
+    Vector<S> elastic;  // the law's part of it: the bending force of a vesicle
+    Vector<S> tension;
+};
+
+namespace detail {
+
+/// A body in the equations: its law, its frozen surface, the background's force density on it, and the tension of the
+/// step before, or an empty vector.
+template <class S, class Surface, class Law>
+struct EquationBody {
+    const Law& law;
+    const Surface& surface;
+    const Vector<S>& load;
+    const Vector<S>& tension;
+};
+
+/// Resistance of a sphere, which has no area to spare: its tension grows without bound against any deformation, although
+/// div_s u = 0 alone admits deformations to first order. The limit is a resistance to the rate of change of the
+/// curvature, large against the viscous one of the fluid (which is 1 in these units) and small enough for the type to
+/// resolve both.
+template <class S>
+S saturated_resistance() {
+    using std::sqrt;
+    return std::min<S>(S(1e5), S(0.1) / sqrt(std::numeric_limits<S>::epsilon()));
+}
+
+/// Curvature variations of an excess area D are about sqrt(D); below 1e-6 the tension's mean is noise.
+template <class Surface>
+bool is_sphere(const Surface& surface) {
+    using S = typename decltype(surface.mean_curvature)::Scalar;
+    const auto& h = surface.mean_curvature;
+    return h.maxCoeff() - h.minCoeff() < S(1e-3) * h.maxCoeff();
+}
+
+/// Corrections of `mobility` and of the background velocity for what the discrete single layer gets wrong.
+template <class S, class Surface, class Law>
+void complete_rank(const std::vector<EquationBody<S, Surface, Law>>& bodies, Matrix<S>& mobility,
+                   Vector<S>& background) {
+    Index begin = 0;
+    for (const auto& body : bodies) {
+        const Index n = 2 * body.surface.size();
+        if (is_rigid(body.law)) {
+            const Vector<S> normal = body.surface.normals();
+            const Vector<S> mean = body.surface.volume_gradient / body.surface.area();
+            for (Index j = 0; j < n; ++j) {
+                mobility.col(begin + j).segment(begin, n) += mean[j] * normal;
+            }
+        } else {
+            ignore_pressure<S>(body.surface, begin, mobility);
+        }
+        begin += n;
+    }
+    begin = 0;
+    for (const auto& body : bodies) {
+        const Index n = 2 * body.surface.size();
+        if (!is_rigid(body.law)) {
+            stop_flux<S>(body.surface, begin, mobility);
+            background.segment(begin, n) = without_flux<S>(body.surface, Vector<S>(background.segment(begin, n)));
+        }
+        begin += n;
+    }
+}
+
+/// Solves for the motion at one instant, or over an implicit step.
+template <class S, class Surface, class Law>
+class MotionEquation {
+    using Operator = typename Surface::Operator;
+    using Kinds = LawKinds<Law>;
+
+  public:
+    using Body = EquationBody<S, Surface, Law>;
+
+    /// `mobility` and `background` are complete.
+    MotionEquation(const std::vector<Body>& bodies, const Matrix<S>& mobility, const Vector<S>& background,
+                   const S& implicit_time)
+        : bodies_(bodies), mobility_(mobility), background_(background) {
+        Index begin = 0;
+        for (const Body& body : bodies_) {
+            parts_.push_back(Kinds::visit(body.law, [&](const auto& law) { return part(law, body, implicit_time); }));
+            parts_.back().begin = begin;
+            begin += 2 * body.surface.size();
+        }
+    }
+
+    template <class Solver>
+    std::vector<MobilitySolution<S>> solve(Solver& solver) {
+        response();
+        Vector<S> y(unknowns_);
+        if (unknowns_ > 0) {
+            system();
+            solver.factorize(matrix_);
+            y = solver.solve(rhs_);
+        }
+        const Vector<S> velocity = velocity_given_ + response_ * y;
+        std::vector<MobilitySolution<S>> solutions;
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            solutions.push_back(solution(parts_[b], bodies_[b], y, velocity));
+        }
+        return solutions;
+    }
+
+  private:
+    static constexpr Index none = -1;
+
+    /// What a body adds. Indices into the unknowns, `none` where it has no such unknowns.
+    struct Part {
+        Index begin = 0;  // of its nodes
+        Index velocity = none;
+        Index tension = none;
+        Index slack = none;  // of a sphere's redundant constraint
+        Index force = none;
+        Index speed = none;
+        std::optional<S> given_speed;
+        Vector<S> elastic;
+        Vector<S> given_force;  // f(x) + load
+        Operator of_velocity;   // t F, and a sphere's resistance
+    };
+
+    Index take(Index count) {
+        unknowns_ += count;
+        return unknowns_ - count;
+    }
+
+    template <class Kind>
+    Part part(const Kind& law, const Body& body, const S& time) {
+        Part p;
+        const Surface& surface = body.surface;
+        if constexpr (Kind::constraint == Constraint::rigid) {
+            p.force = take(2 * surface.size());
+            p.given_speed = law.velocity;
+            if (!p.given_speed) {
+                p.speed = take(1);
+            }
+        } else {
+            p.elastic = law.force(surface);
+            p.given_force = p.elastic + body.load;
+            constexpr bool inextensible = Kind::constraint == Constraint::inextensible;
+            const bool saturated = inextensible && is_sphere(surface);
+            if (time != S(0)) {
+                p.of_velocity = time * law.linearisation(surface, body.tension);
+            }
+            if (saturated) {
+                const Vector<S> resistance = Vector<S>::Constant(surface.size(), S(-2 * saturated_resistance<S>()));
+                const Operator rigidity =
+                    surface.along_normal(Operator(resistance.asDiagonal() * surface.mean_curvature_of));
+                p.of_velocity = p.of_velocity.rows() > 0 ? Operator(p.of_velocity + rigidity) : rigidity;
+            }
+            if (p.of_velocity.rows() > 0) {
+                p.velocity = take(2 * surface.size());
+            }
+            if (inextensible) {
+                p.tension = take(surface.divergence.rows());
+                if (saturated) {
+                    p.slack = take(1);
+                }
+            }
+        }
+        return p;
+    }
+
+    /// u = u_0 + V y at all nodes.
+    void response() {
+        velocity_given_ = background_;
+        response_ = Matrix<S>::Zero(background_.size(), unknowns_);
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            const Part& p = parts_[b];
+            const Surface& surface = bodies_[b].surface;
+            const Index n = 2 * surface.size();
+            if (p.force != none) {
+                response_.middleCols(p.force, n) = mobility_.middleCols(p.begin, n);
+                continue;
+            }
+            if constexpr (Kinds::any_deformable) {
+                Matrix<S> copy;
+                if (bodies_.size() > 1) {
+                    copy = mobility_.middleCols(p.begin, n);
+                }
+                const Matrix<S>& g = bodies_.size() > 1 ? copy : mobility_;
+                velocity_given_ += g * p.given_force;
+                if (p.velocity != none) {
+                    response_.middleCols(p.velocity, n) = g * p.of_velocity;
+                }
+                if (p.tension != none) {
+                    response_.middleCols(p.tension, surface.tension_force.cols()) = g * surface.tension_force;
+                }
+            }
+        }
+    }
+
+    void system() {
+        matrix_ = Matrix<S>::Zero(unknowns_, unknowns_);
+        rhs_ = Vector<S>::Zero(unknowns_);
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            if (parts_[b].force != none) {
+                rigid_rows(parts_[b], bodies_[b]);
+            } else if constexpr (Kinds::any_deformable) {
+                deformable_rows(parts_[b], bodies_[b].surface);
+            }
+        }
+    }
+
+    void rigid_rows(const Part& p, const Body& body) {
+        const Index nodes = body.surface.size();
+        const Index n = 2 * nodes;
+        matrix_.middleRows(p.force, n) = response_.middleRows(p.begin, n);
+        rhs_.segment(p.force, n) = -velocity_given_.segment(p.begin, n);
+        if (p.given_speed) {
+            rhs_.segment(p.force + nodes, nodes).array() += *p.given_speed;
+        } else {
+            matrix_.col(p.speed).segment(p.force + nodes, nodes).setConstant(S(-1));
+            matrix_.row(p.speed).segment(p.force + nodes, nodes) = body.surface.weight.transpose();
+            rhs_[p.speed] = body.surface.weight.dot(body.load.tail(nodes));
+        }
+        // On the axis u_r = 0 holds by symmetry and says nothing: f_r = 0 takes its place.
+        for (const Index pole : {p.force, p.force + nodes - 1}) {
+            matrix_.row(pole).setZero();
+            matrix_(pole, pole) = 1;
+            rhs_[pole] = 0;
+        }
+    }
+
+    void deformable_rows(const Part& p, const Surface& surface) {
+        const Index n = 2 * surface.size();
+        if (p.velocity != none) {
+            matrix_.middleRows(p.velocity, n) = -response_.middleRows(p.begin, n);
+            matrix_.diagonal().segment(p.velocity, n).array() += S(1);
+            rhs_.segment(p.velocity, n) = velocity_given_.segment(p.begin, n);
+        }
+        if (p.tension == none) {
+            return;
+        }
+        const Index tensions = surface.divergence.rows();
+        if (p.velocity != none) {
+            matrix_.block(p.tension, p.velocity, tensions, n) = surface.divergence;
+        } else {
+            const Matrix<S> rows = response_.middleRows(p.begin, n);
+            const Vector<S> given = velocity_given_.segment(p.begin, n);
+            matrix_.middleRows(p.tension, tensions) = surface.divergence * rows;
+            rhs_.segment(p.tension, tensions) = -(surface.divergence * given);
+        }
+        if (p.slack != none) {
+            // A uniform tension is a pressure, and dA/dt = 2 dV/dt = 0 makes one of the constraints redundant: fix the
+            // mean tension and allow for the redundant constraint's O(h^2) error.
+            matrix_.row(p.slack).segment(p.tension, tensions) = surface.element_area.transpose() / surface.area();
+            matrix_.col(p.slack).segment(p.tension, tensions).setOnes();
+        }
+    }
+
+    MobilitySolution<S> solution(const Part& p, const Body& body, const Vector<S>& y, const Vector<S>& velocity) const {
+        const Index n = 2 * body.surface.size();
+        MobilitySolution<S> s;
+        if (p.force != none) {
+            s.velocity = Vector<S>::Zero(n);
+            s.velocity.tail(n / 2).setConstant(p.given_speed ? *p.given_speed : y[p.speed]);
+            s.force = y.segment(p.force, n);
+            return s;
+        }
+        if constexpr (Kinds::any_deformable) {
+            s.velocity = p.velocity != none ? Vector<S>(y.segment(p.velocity, n)) : Vector<S>(velocity.segment(p.begin, n));
+            s.elastic = p.elastic;
+            s.force = p.given_force;
+            if (p.velocity != none) {
+                s.force += p.of_velocity * s.velocity;
+            }
+            if (p.tension != none) {
+                s.tension = y.segment(p.tension, body.surface.divergence.rows());
+                s.force += body.surface.tension_force * s.tension;
+            }
+        }
+        return s;
+    }
+
+    const std::vector<Body>& bodies_;
+    const Matrix<S>& mobility_;
+    const Vector<S>& background_;
+    std::vector<Part> parts_;
+    Index unknowns_ = 0;
+    Matrix<S> response_;
+    Vector<S> velocity_given_;
+    Matrix<S> matrix_;
+    Vector<S> rhs_;
+};
+
+}  // namespace detail
+}  // namespace axistokes

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// What an interface is made of: the force density it exerts, and what constrains its motion. A law knows nothing about
+// kernels, equations or solvers.
+#pragma once
+
+#include "../core.hpp"
+
+#include <concepts>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace axistokes {
+
+/// What a law demands of its interface's motion: nothing; div_s u = 0, kept by a tension; or a rigid translation.
+enum class Constraint { none, inextensible, rigid };
+
+namespace detail {
+
+template <class L>
+concept NamedConstraint = requires {
+    { L::constraint } -> std::convertible_to<Constraint>;
+};
+
+template <class L>
+concept RigidLaw = NamedConstraint<L> && L::constraint == Constraint::rigid &&
+    requires(const L& law) { law.velocity.has_value(); };
+
+template <class L, class Surface>
+concept DeformableLaw = NamedConstraint<L> && L::constraint != Constraint::rigid &&
+    requires(const L& law, const Surface& surface, const Vector<typename L::Scalar>& tension) {
+    { L::conserves_area } -> std::convertible_to<bool>;
+    { law.force(surface) } -> std::convertible_to<Vector<typename L::Scalar>>;
+    { law.linearisation(surface, tension) } -> std::convertible_to<typename Surface::Operator>;
+};
+
+}  // namespace detail
+
+/// LawFor<Surface>: the law of one body's interface.
+///
+/// `constraint` says what its motion must obey. A rigid body (Constraint::rigid) has nothing else but `velocity`, the
+/// optional one it is given; without, its traction balances the background's load. Any other law has
+/// - `force(surface)`, stacked [r; z]: its force density on the fluid at the nodes of `surface`, in kappa/R0^3, without
+///   the background's load and without the tension that keeps an inextensible interface's area;
+/// - `linearisation(surface, tension)`, an operator displacements -> change of that force, with which semi-implicit steps
+///   are stable; it need not be exact. `tension` is the constraint's, of the previous step, or empty;
+/// - `conserves_area`: whether the interface's area is a constant of the motion. Its volume always is.
+template <class L, class Surface>
+concept LawFor = detail::NamedConstraint<L> && (detail::RigidLaw<L> || detail::DeformableLaw<L, Surface>);
+
+/// A body of one of several kinds, chosen at run time: a scene of OneOf<Vesicle<>, RigidBody<>> holds both.
+template <class... Laws>
+struct OneOf {
+    using Scalar = typename std::common_type_t<typename Laws::Scalar...>;
+    std::variant<Laws...> law;
+
+    template <class L>
+    OneOf(L chosen) : law(std::move(chosen)) {}
+};
+
+namespace detail {
+
+/// The kinds a law stands for: itself, or those of OneOf.
+template <class L>
+struct LawKinds {
+    static constexpr bool any_deformable = L::constraint != Constraint::rigid;
+    static constexpr bool any_rigid = L::constraint == Constraint::rigid;
+
+    template <class Use>
+    static decltype(auto) visit(const L& law, const Use& use) {
+        return use(law);
+    }
+};
+
+template <class... Laws>
+struct LawKinds<OneOf<Laws...>> {
+    static constexpr bool any_deformable = (LawKinds<Laws>::any_deformable || ...);
+    static constexpr bool any_rigid = (LawKinds<Laws>::any_rigid || ...);
+
+    template <class Use>
+    static decltype(auto) visit(const OneOf<Laws...>& law, const Use& use) {
+        return std::visit(use, law.law);
+    }
+};
+
+template <class L>
+bool is_rigid(const L& law) {
+    return LawKinds<L>::visit(
+        law, [](const auto& kind) { return std::decay_t<decltype(kind)>::constraint == Constraint::rigid; });
+}
+
+template <class L>
+bool keeps_area(const L& law) {
+    return LawKinds<L>::visit(law, [](const auto& kind) {
+        using Kind = std::decay_t<decltype(kind)>;
+        if constexpr (Kind::constraint == Constraint::rigid) {
+            return true;
+        } else {
+            return bool(Kind::conserves_area);
+        }
+    });
+}
+
+/// The law's force density on `surface`; none for a rigid body.
+template <class S, class L, class Surface>
+Vector<S> elastic_force(const L& law, const Surface& surface) {
+    return LawKinds<L>::visit(law, [&](const auto& kind) -> Vector<S> {
+        if constexpr (std::decay_t<decltype(kind)>::constraint == Constraint::rigid) {
+            return Vector<S>::Zero(2 * surface.size());
+        } else {
+            return kind.force(surface);
+        }
+    });
+}
+
+template <class L, class Surface>
+struct LawsFit : std::bool_constant<LawFor<L, Surface>> {};
+template <class... Laws, class Surface>
+struct LawsFit<OneOf<Laws...>, Surface> : std::bool_constant<(LawFor<Laws, Surface> && ...)> {};
+
+}  // namespace detail
+
+/// A law that fits, or OneOf several that do.
+template <class L, class Surface>
+concept LawsFor = LawFor<L, Surface> || (!detail::NamedConstraint<L> && detail::LawsFit<L, Surface>::value);
+
+}  // namespace axistokes
