@@ -37,7 +37,8 @@ using axistokes::test::Spheroid;
 class ViscousKernel {
   public:
     using Scalar = double;
-    static constexpr bool has_regular_part = false;
+    static constexpr bool has_images = false;
+    static constexpr bool laboratory_frame = false;
 
     void singular(Point<double> target, const double* r, const double* z, Index n, KernelArrays<double> out) const {
         inner_.singular(target, r, z, n, out);

@@ -12,9 +12,9 @@
 using namespace axistokes;
 
 struct Integrator {
-    template <class S, class SceneType>
-    auto step(SceneType& scene, const Configuration<S>& start, const S& dt) const {
-        return detail::euler_step(scene, start, dt, S(0));
+    template <class SceneType, class S>
+    Step<S> step(SceneType&, const typename SceneType::Moment& start, const S&) const {
+        return {start.bodies};
     }
 };
 

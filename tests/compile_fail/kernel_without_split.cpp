@@ -12,7 +12,8 @@ using namespace axistokes;
 
 struct Kernel {
     using Scalar = double;
-    static constexpr bool has_regular_part = false;
+    static constexpr bool has_images = false;
+    static constexpr bool laboratory_frame = false;
     void singular(Point<double>, const double*, const double*, Index, KernelArrays<double>) const {}
 };
 

@@ -3,7 +3,7 @@
 #include <axistokes/discretization/linear_elements.hpp>
 #include <axistokes/flow/gravity.hpp>
 #include <axistokes/kernel/free_space.hpp>
-#include <axistokes/membrane/rigid_body.hpp>
+#include <axistokes/membrane/law.hpp>
 #include <axistokes/simulator.hpp>
 #include <axistokes/solver/dense.hpp>
 #include <axistokes/time/euler.hpp>
@@ -12,18 +12,24 @@ using namespace axistokes;
 
 struct Kernel {
     using Scalar = double;
-    static constexpr bool has_regular_part = false;
+    static constexpr bool has_images = false;
+    static constexpr bool laboratory_frame = false;
     void singular(Point<double>, const double*, const double*, Index, KernelArrays<double>) const {}
     void singular_split(Point<double>, const double*, const double*, Index, KernelArrays<double>,
                         KernelArrays<double>) const {}
 };
 
-struct Membrane {
+struct Law {
     using Scalar = double;
-    static constexpr bool deformable = false;
-    template <class Surface, class Solver>
-    MobilitySolution<double> solve(const MobilityProblem<double, Surface>&, Solver&) const {
-        return {};
+    static constexpr Constraint constraint = Constraint::none;
+    static constexpr bool conserves_area = false;
+    template <class Surface>
+    Vector<double> force(const Surface& surface) const {
+        return surface.normals();
+    }
+    template <class Surface>
+    typename Surface::Operator linearisation(const Surface& surface, const Vector<double>&) const {
+        return surface.along_normal(surface.mean_curvature_of);
     }
 };
 
@@ -45,25 +51,33 @@ struct Solver {
 struct Wall {
     static constexpr bool present = true;
     template <class Discretization, class SomeKernel>
-    void confine(const Discretization&, const SomeKernel&, const Meridian<double>&, Matrix<double>&, Vector<double>&) {}
-    double radius(double) const { return 2; }
-    template <class Surface>
-    double pressure_drop(const Surface&, const Vector<double>&) const {
-        return 0;
+    Vector<double> confine(const Discretization&, const SomeKernel&, const std::vector<Meridian<double>>&,
+                           Matrix<double>&, Vector<double>&) {
+        return {};
     }
+    double gap(const Point<double>& x) const { return 2 - x.r; }
     double velocity_scale() const { return 0; }
     double centreline_velocity(double) const { return 0; }
 };
 
 struct Integrator {
     static constexpr int order = 1;
-    template <class S, class SceneType>
-    auto step(SceneType& scene, const Configuration<S>& start, const S& dt) const {
-        return detail::euler_step(scene, start, dt, S(0));
+    template <class SceneType, class S>
+    Step<S> step(SceneType&, const typename SceneType::Moment& start, const S&) const {
+        return {start.bodies};
     }
 };
 
-using Right = Simulator<Kernel, LinearElements<>, Membrane, Flow, Integrator, Solver, Wall>;
+struct Control {
+    explicit Control(const StepControlParams<double>&) {}
+    double step() const { return 1; }
+    bool fixed() const { return true; }
+    void judge(const StepReport<double>&) const {}
+    bool shorten(double) { return false; }
+    void accept(const StepReport<double>&, double, bool) {}
+};
+
+using Right = Simulator<Kernel, LinearElements<>, Law, Flow, Integrator, Solver, Wall, Control>;
 
 double run(Right& simulator) {
     return simulator.step().velocity;

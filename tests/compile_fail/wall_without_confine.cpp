@@ -12,7 +12,7 @@ using namespace axistokes;
 
 struct Wall {
     static constexpr bool present = true;
-    double radius(double) const { return 2; }
+    double gap(const Point<double>& x) const { return 2 - x.r; }
 };
 
 using Wrong = Scene<FreeSpaceKernel<>, LinearElements<>, RigidBody<>, Gravity<>, DenseLU<>, Wall>;

@@ -1,6 +1,6 @@
-// expect: MembraneFor.*solve
+// expect: LawFor.*force
 // SPDX-License-Identifier: MIT
-// A membrane that solves nothing.
+// A law that does not say what force its interface exerts.
 #include <axistokes/discretization/linear_elements.hpp>
 #include <axistokes/flow/gravity.hpp>
 #include <axistokes/kernel/free_space.hpp>
@@ -10,9 +10,10 @@
 
 using namespace axistokes;
 
-struct Membrane {
+struct Law {
     using Scalar = double;
-    static constexpr bool deformable = false;
+    static constexpr Constraint constraint = Constraint::none;
+    static constexpr bool conserves_area = false;
 };
 
-using Wrong = Scene<FreeSpaceKernel<>, LinearElements<>, Membrane, Gravity<>, DenseLU<>>;
+using Wrong = Scene<FreeSpaceKernel<>, LinearElements<>, Law, Gravity<>, DenseLU<>>;
