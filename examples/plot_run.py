@@ -198,7 +198,7 @@ def draw_history(axes, history):
 
 def draw_profiles(axes, shape):
     s = shape["arc_length"]
-    for name, label, color in (("force", "total", "#1f5fa8"), ("bending_force", "bending", "#d08a00")):
+    for name, label, color in (("force", "total", "#1f5fa8"), ("elastic_force", "bending", "#d08a00")):
         if name + "_r" in shape:
             for axis, direction in zip(axes[:2], "rz"):
                 axis.plot(s, shape[f"{name}_{direction}"], color=color, label=label,

@@ -49,10 +49,8 @@ Settling settle(const LinearSurface<double>& surface, const Matrix<double>& mobi
     Vector<double> load = Vector<double>::Zero(2 * n);
     load.tail(n).setOnes();
     const Vector<double> none = Vector<double>::Zero(2 * n);
-    const Vector<double> tension;
     DenseLU<double> solver;
-    const auto solution = RigidBody<double>().solve(
-        MobilityProblem<double, LinearSurface<double>>{surface, mobility, none, load, tension, 0.0}, solver);
+    const auto solution = detail::lone_motion<double>(RigidBody<double>(), surface, mobility, none, load, solver);
     return {solution.force / solution.velocity[n], 1 / solution.velocity[n]};
 }
 
@@ -64,7 +62,7 @@ Settling by_tube(const LinearElements<double>& discretization, const Meridian<do
 Settling by_wall(const LinearElements<double>& discretization, const Meridian<double>& sphere, Matrix<double> unbounded,
                  Tube& tube) {
     Vector<double> background = Vector<double>::Zero(unbounded.rows());
-    tube.confine(discretization, FreeSpaceKernel<double>(), sphere, unbounded, background);
+    tube.confine(discretization, FreeSpaceKernel<double>(), {sphere}, unbounded, background);
     return settle(discretization.surface(sphere), unbounded);
 }
 /// The mesh and its factors are made in the first call, as in a simulation's first step.

@@ -162,7 +162,7 @@ void cost(const Options& options, const State& state) {
     // The unbounded part does not depend on the wall.
     ByWall scene = by_wall(options, fine, wall_of(options.accuracy));
     const auto frozen_without_wall = [&] {
-        auto frozen = scene.freeze(configuration);
+        auto frozen = scene.freeze({configuration});
         frozen.mobility = fine.single_layer(configuration.shape, scene.kernel());
         frozen.background = scene.background_velocity(configuration);
         return frozen;
@@ -170,8 +170,11 @@ void cost(const Options& options, const State& state) {
     const auto wall_error = [&](const WallMeshParams<double>& params) {
         auto frozen = frozen_without_wall;
         Tube tube(StraightTube<double>(options.radius()), params);
-        tube.confine(fine, scene.kernel(), configuration.shape, frozen.mobility, frozen.background);
-        return force_error(scene.evaluate(frozen, configuration, 0));
+        tube.confine(fine, scene.kernel(), {configuration.shape}, frozen.mobility, frozen.background);
+        const std::vector<detail::EquationBody<double, ByWall::Surface, Vesicle<double>>> bodies{
+            {scene.law(), frozen.bodies[0].surface, frozen.bodies[0].load, configuration.tension}};
+        detail::complete_rank<double>(bodies, frozen.mobility, frozen.background);
+        return force_error(scene.evaluate(frozen, {configuration}, 0).front());
     };
     for (const WallGrading grading : {WallGrading::automatic, WallGrading::uniform}) {
         const auto best = examples::cheapest_wall(StraightTube<double>(options.radius()), configuration.shape,

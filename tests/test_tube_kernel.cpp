@@ -371,11 +371,6 @@ TEST_CASE("the flow of a ring is free of divergence", "[tube]") {
 TEST_CASE("the pressure drop is that of the flow", "[tube]") {
     // With the axial momentum equation integrated along the tube, U(r) = Int u_z dz obeys U'' + U'/r = p(inf) - p(-inf)
     // inside the ring: U = U(0) + r^2/4 of it. The trapezoidal rule converges geometrically.
-    struct Ring {
-        Meridian<double> nodes;
-        Vector<double> weight;
-        Index size() const { return 1; }
-    };
     const auto kernel = tube(1.0, 1e-12);
     for (const double r : {0.6, 0.95}) {
         const auto along = [&](double r0) {
@@ -387,27 +382,23 @@ TEST_CASE("the pressure drop is that of the flow", "[tube]") {
             return sum / (8 * test::pi);
         };
         const double rise = 4 * (along(0.2) - along(0)) / (0.2 * 0.2);
-        Ring ring{{Vector<double>::Constant(1, r), Vector<double>::Zero(1)},
-                  Vector<double>::Constant(1, 2 * test::pi * r)};
-        Vector<double> force(2);
-        force << 0, 1;
         INFO("ring of radius " << r);
-        CHECK(kernel.pressure_drop(ring, force) == Approx(-rise).epsilon(1e-8));
+        // By the reciprocal theorem, of a ring of unit axial force density.
+        CHECK(2 * test::pi * r * kernel.unit_flow({r, 0}).z == Approx(rise).epsilon(1e-8));
     }
 }
 
-TEST_CASE("the pressure drop is the work done on Poiseuille flow", "[tube]") {
-    // Uniform traction along z on a thin ring around the axis pushes like a point force F: the drop is -2 F/(pi Rc^2).
+TEST_CASE("the undisturbed flow of flow rate 1", "[tube]") {
     const auto kernel = tube(3.0, 1e-8);
-    const LinearElements<double> elements;
-    Meridian<double> small = capsule(1.0, 0.9, 40);
-    small.r *= 0.01;
-    small.z *= 0.01;
-    const auto surface = elements.surface(small);
-    Vector<double> force = Vector<double>::Zero(2 * small.nodes());
-    force.tail(small.nodes()).setOnes();
-    const double total = surface.area();
-    CHECK(kernel.pressure_drop(surface, force) == Approx(-2 * total / (test::pi * 9)).epsilon(1e-6));
+    CHECK(kernel.unit_flow({0, 0.3}).z == Approx(2 / (test::pi * 9)).epsilon(1e-14));
+    CHECK(kernel.unit_flow({3, 0}).z == Approx(0).margin(1e-15));
+    CHECK(kernel.unit_flow({1, 0}).r == 0);
+    double rate = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const double r = 3 * (i + 0.5) / 1000;
+        rate += 2 * test::pi * r * kernel.unit_flow({r, 0}).z * 3 / 1000;
+    }
+    CHECK(rate == Approx(1).epsilon(1e-5));
 }
 
 TEST_CASE("float, long double and 50 digits work", "[tube]") {

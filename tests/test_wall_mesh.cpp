@@ -59,18 +59,10 @@ struct Motion {
     Vector<double> traction;
 };
 
-/// Of a body in fluid at rest or, undisturbed, in `background`.
-MobilitySolution<double> solve_rigid(const LinearSurface<double>& surface, Matrix<double> mobility,
-                                     Vector<double> background, const Vector<double>& load) {
-    const RigidBody<double> law;
-    const Vector<double> tension;
-    const std::vector<detail::EquationBody<double, LinearSurface<double>, RigidBody<double>>> bodies{
-        {law, surface, load, tension}};
-    detail::complete_rank<double>(bodies, mobility, background);
+MobilitySolution<double> solve_rigid(const LinearSurface<double>& surface, const Matrix<double>& mobility,
+                                     const Vector<double>& background, const Vector<double>& load) {
     DenseLU<double> solver;
-    return detail::MotionEquation<double, LinearSurface<double>, RigidBody<double>>(bodies, mobility, background, 0.0)
-        .solve(solver)
-        .front();
+    return detail::lone_motion<double>(RigidBody<double>(), surface, mobility, background, load, solver);
 }
 
 /// By the reciprocal theorem with the undisturbed flow of unit flow rate at the nodes.

@@ -39,42 +39,45 @@ class Drive {
     Choice choice_;
 };
 
-/// The Green function of a tube, by either evaluation, or of free space: a tube of infinite radius.
-class OptionalTubeKernel : public axistokes::FreeSpaceKernel<double> {
+/// The images of a tube, by either evaluation, or none: a tube of infinite radius.
+class OptionalTubeImages {
   public:
     using Scalar = double;
-    static constexpr bool has_regular_part = true;
-    using Tube = axistokes::TubeKernel<double>;
-    using FilonTube = axistokes::TubeFilonKernel<double>;
+    using Tube = axistokes::TubeImages<double>;
+    using FilonTube = axistokes::TubeFilonImages<double>;
 
-    OptionalTubeKernel() = default;
-    explicit OptionalTubeKernel(Tube tube) : tube_(std::move(tube)) {}
-    explicit OptionalTubeKernel(FilonTube tube) : tube_(std::move(tube)) {}
+    OptionalTubeImages() = default;
+    explicit OptionalTubeImages(Tube tube) : tube_(std::move(tube)) {}
+    explicit OptionalTubeImages(FilonTube tube) : tube_(std::move(tube)) {}
 
     /// The same with the error `tolerance`, or the present one if that is larger.
-    OptionalTubeKernel loosened(double tolerance) const {
+    OptionalTubeImages loosened(double tolerance) const {
         const auto* tube = std::get_if<Tube>(&tube_);
-        return tube ? OptionalTubeKernel(tube->loosened(tolerance)) : *this;
+        return tube ? OptionalTubeImages(tube->loosened(tolerance)) : *this;
     }
 
-    double tube_radius() const {
-        return visit([](const auto& tube) { return tube.tube_radius(); }, std::numeric_limits<double>::infinity());
+    double gap(const axistokes::Point<double>& x) const {
+        return visit([&](const auto& tube) { return tube.gap(x); }, std::numeric_limits<double>::infinity());
+    }
+
+    axistokes::KernelBlock<double> correction(const axistokes::Point<double>& target,
+                                              const axistokes::Point<double>& source) const {
+        return visit([&](const auto& tube) { return tube.correction(target, source); },
+                     axistokes::KernelBlock<double>{});
     }
 
     template <class Quadrature>
     void regular(const axistokes::Meridian<double>& targets, const Quadrature& quadrature,
                  axistokes::Matrix<double>& out) const {
-        visit(
-            [&](const auto& tube) {
-                tube.regular(targets, quadrature, out);
-                return 0;
-            },
-            0);
+        if (const auto* tube = std::get_if<Tube>(&tube_)) {
+            tube->regular(targets, quadrature, out);
+        } else {
+            axistokes::detail::regular_by_pairs<double>(*this, targets, quadrature(0.0), out);
+        }
     }
 
-    template <class Surface>
-    double pressure_drop(const Surface& surface, const axistokes::Vector<double>& force) const {
-        return visit([&](const auto& tube) { return tube.pressure_drop(surface, force); }, 0.0);
+    axistokes::Point<double> unit_flow(const axistokes::Point<double>& x) const {
+        return visit([&](const auto& tube) { return tube.unit_flow(x); }, axistokes::Point<double>{});
     }
 
   private:
@@ -92,6 +95,8 @@ class OptionalTubeKernel : public axistokes::FreeSpaceKernel<double> {
     std::variant<std::monostate, Tube, FilonTube> tube_;
 };
 
+using OptionalTubeKernel = axistokes::ImagedKernel<double, OptionalTubeImages>;
+
 /// What a particle is in: free space, a tube given by its Green function (slow_quadrature: the paper's), or one with a
 /// meshed wall.
 struct Surroundings {
@@ -101,12 +106,17 @@ struct Surroundings {
 
     OptionalTubeKernel kernel(std::optional<double> tolerance) const {
         if (!tube_radius) {
-            return OptionalTubeKernel();
+            return OptionalTubeKernel(OptionalTubeImages());
         }
-        axistokes::TubeKernel<double>::Params params;
+        using Images = OptionalTubeImages;
+        if (slow_quadrature) {
+            Images::FilonTube::Params params;
+            params.tolerance = tolerance.value_or(params.tolerance);
+            return OptionalTubeKernel(Images(Images::FilonTube(*tube_radius, params)));
+        }
+        Images::Tube::Params params;
         params.tolerance = tolerance.value_or(params.tolerance);
-        return slow_quadrature ? OptionalTubeKernel(axistokes::TubeFilonKernel<double>(*tube_radius, params))
-                               : OptionalTubeKernel(axistokes::TubeKernel<double>(*tube_radius, params));
+        return OptionalTubeKernel(Images(Images::Tube(*tube_radius, params)));
     }
     axistokes::WallMesh<axistokes::StraightTube<double>> mesh() const {
         return axistokes::WallMesh(axistokes::StraightTube<double>(*tube_radius), *wall);

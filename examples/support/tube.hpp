@@ -33,7 +33,7 @@ struct TubeOptions {
 /// the mobility; of a meshed wall also its panels, without those on the ends, and all its nodes.
 template <class Simulator>
 nlohmann::ordered_json tube_summary(const Simulator& simulator, const Ending<Simulator>& ending, double mean_velocity) {
-    const double radius = simulator.scene().wall_radius(0);
+    const double radius = simulator.scene().gap({0, ending.configuration.position});
     nlohmann::ordered_json summary{{"tube_radius", radius}, {"confinement", 1 / radius}};
     const auto film = simulator.scene().film_thickness(ending.configuration);
     summary["film_thickness_min"] = film.min;

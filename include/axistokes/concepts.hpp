@@ -5,23 +5,47 @@
 #include "core.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/meridian.hpp"
+#include "quadrature/regular_quadrature.hpp"
 
 #include <concepts>
 #include <vector>
 
 namespace axistokes {
 
+namespace detail {
+
+/// Stands for the quadrature that a discretisation hands to a kernel's images.
+template <class S>
+struct AnyQuadrature {
+    RegularQuadrature<S> operator()(const S&) const;
+};
+
+template <class K>
+concept KernelWithImages = requires(const K& kernel, const Point<typename K::Scalar>& point,
+                                    const Meridian<typename K::Scalar>& targets, Matrix<typename K::Scalar>& out) {
+    { kernel.gap(point) } -> std::convertible_to<typename K::Scalar>;
+    { kernel.regular(targets, AnyQuadrature<typename K::Scalar>{}, out) } -> std::same_as<void>;
+};
+
+}  // namespace detail
+
 /// GreenKernel: the velocity M_ab(x0, x) at a target due to a ring of forces, without the factor 1/(8 pi), with the
 /// ring's Jacobian r. The singular part, pairwise, carries the free-space logarithm log(m1): `singular` evaluates it
-/// for arrays of sources, `singular_split` as smooth + log_coefficient log(m1). A kernel with has_regular_part = true
-/// additionally has a smooth correction that is evaluated for all points at once.
+/// for arrays of sources, `singular_split` as smooth + log_coefficient log(m1).
+///
+/// A kernel with `has_images` = true additionally has the smooth part that a wall adds (imaged.hpp composes one from
+/// images of your own): `gap(point)` is a point's distance from the wall, its image lies twice as far;
+/// `regular(targets, quadrature, out)` adds the smooth part for all points at once. `laboratory_frame` tells whether it
+/// depends on where along the axis target and source are, not only on their distance. An optional `unit_flow(point)` is
+/// the undisturbed flow of flow rate 1 through a tube: scenes then have a pressure drop.
 template <class K>
 concept GreenKernel = requires(const K& kernel, Point<typename K::Scalar> target, const typename K::Scalar* coordinate,
                                Index count, KernelArrays<typename K::Scalar> out) {
-    { K::has_regular_part } -> std::convertible_to<bool>;
+    { K::has_images } -> std::convertible_to<bool>;
+    { K::laboratory_frame } -> std::convertible_to<bool>;
     { kernel.singular(target, coordinate, coordinate, count, out) } -> std::same_as<void>;
     { kernel.singular_split(target, coordinate, coordinate, count, out, out) } -> std::same_as<void>;
-};
+} && (!K::has_images || detail::KernelWithImages<K>);
 
 /// DiscretizationFor<Kernel>: nodes on the meridian and the operators on them. `surface(meridian, parts)` gives the
 /// frozen geometry: nodal weights of Int dA, outward normals, and, if they are wanted, curvatures and the linear operators
@@ -66,13 +90,6 @@ template <class L>
 concept LinearSolver = requires(L& solver, const Matrix<typename L::Scalar>& a, const Vector<typename L::Scalar>& b) {
     { solver.factorize(a) } -> std::same_as<void>;
     { solver.solve(b) } -> std::convertible_to<Vector<typename L::Scalar>>;
-};
-
-/// ConfiningKernel: a kernel that vanishes on the wall of a straight tube of radius `tube_radius()` around the axis.
-/// `pressure_drop(surface, force)` is what a nodal force density adds to the pressure drop along the tube.
-template <class K>
-concept ConfiningKernel = GreenKernel<K> && requires(const K& kernel) {
-    { kernel.tube_radius() } -> std::convertible_to<typename K::Scalar>;
 };
 
 /// WallFor<Kernel, Discretization>: a wall with unknown tractions of its own. `confine` eliminates them: it turns the

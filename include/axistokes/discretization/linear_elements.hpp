@@ -150,7 +150,7 @@ class LinearElements : public SplineGeometry<S> {
             }
             row.store(scale, i, rows, g);
         }
-        if constexpr (Kernel::has_regular_part) {
+        if constexpr (Kernel::has_images) {
             add_regular_part(targets, m, kernel, g);
         }
         return g;
@@ -160,24 +160,28 @@ class LinearElements : public SplineGeometry<S> {
     template <class Kernel>
     void add_regular_part(const Meridian<S>& targets, const Meridian<S>& m, const Kernel& kernel, Matrix<S>& g) const {
         using std::isfinite;
-        if (!isfinite(kernel.tube_radius())) {
+        S nearest = kernel.gap({targets.r[0], targets.z[0]});
+        for (Index i = 1; i < targets.nodes(); ++i) {
+            nearest = std::min<S>(nearest, kernel.gap({targets.r[i], targets.z[i]}));
+        }
+        if (!isfinite(nearest)) {
             return;
         }
-        const S nearest = kernel.tube_radius() - targets.r.maxCoeff();
         kernel.regular(
-            targets, [&](const S& distance) { return regular_quadrature(m, kernel.tube_radius(), nearest, distance); },
-            g);
+            targets, [&](const S& distance) { return regular_quadrature(m, kernel, nearest, distance); }, g);
     }
 
     /// Rules for integrands whose singularities are the targets' images, as far behind the wall as the targets, at
     /// least `nearest`, are before it, and no closer than `apart` in any case: the order follows as it does for
     /// targets.
-    RegularQuadrature<S> regular_quadrature(const Meridian<S>& m, const S& tube_radius, const S& nearest,
+    template <class Kernel>
+    RegularQuadrature<S> regular_quadrature(const Meridian<S>& m, const Kernel& kernel, const S& nearest,
                                             const S& apart) const {
         Points points;
         for (Index e = 0; e < m.elements(); ++e) {
             const S length = distance(m.r[e], m.z[e], m.r[e + 1], m.z[e + 1]);
-            const S closest = std::max<S>(apart, tube_radius - std::max(m.r[e], m.r[e + 1]) + nearest);
+            const S gap = std::min<S>(kernel.gap({m.r[e], m.z[e]}), kernel.gap({m.r[e + 1], m.z[e + 1]}));
+            const S closest = std::max<S>(apart, gap + nearest);
             const auto parts = static_cast<Index>(std::ceil(static_cast<double>(length / (2 * closest))));
             for (Index k = 0; k < parts; ++k) {
                 add_rule(m, e, S(k) / S(parts), S(k + 1) / S(parts), regular_order(closest, length / S(parts)), points);

@@ -159,7 +159,7 @@ class SpectralMeridian : public SpectralGeometry<S> {
             }
             add_far(g);
             g *= S(1) / (8 * detail::pi_value<S>());
-            if constexpr (Kernel::has_regular_part) {
+            if constexpr (Kernel::has_images) {
                 add_regular_part(g);
             }
             return g;
@@ -335,16 +335,16 @@ class SpectralMeridian : public SpectralGeometry<S> {
         void add_regular_part(Matrix<S>& g) {
             using std::isfinite;
             using std::sqrt;
-            if (!isfinite(kernel_.tube_radius())) {
+            const S nearest = least_gap(targets_.r, targets_.z);
+            if (!isfinite(nearest)) {
                 return;
             }
-            const S nearest = kernel_.tube_radius() - targets_.r.maxCoeff();
             t_.clear();
             weights_.clear();
             const Index order = rules_.order_;
             for (Index p = 0; p < panels_->count; ++p) {
-                const S closest =
-                    kernel_.tube_radius() - fixed_.r.segment(p * order, order).maxCoeff() + std::max<S>(nearest, S(0));
+                const S closest = least_gap(fixed_.r.segment(p * order, order), fixed_.z.segment(p * order, order)) +
+                                  std::max<S>(nearest, S(0));
                 const S width = panels_->boundary(p + 1) - panels_->boundary(p);
                 const S length = largest_speed_[static_cast<std::size_t>(p)] * width;
                 Index parts = 1;
@@ -381,6 +381,14 @@ class SpectralMeridian : public SpectralGeometry<S> {
             const Vector<S> odd = even.cwiseProduct(moving_.inverse_sine);
             g.leftCols(n) += m.leftCols(count) * (odd.asDiagonal() * cardinals_.transpose() * sines_.asDiagonal());
             g.rightCols(n) += m.rightCols(count) * (even.asDiagonal() * cardinals_.transpose());
+        }
+
+        S least_gap(const Eigen::Ref<const Vector<S>>& r, const Eigen::Ref<const Vector<S>>& z) const {
+            S least = kernel_.gap({r[0], z[0]});
+            for (Index i = 1; i < r.size(); ++i) {
+                least = std::min<S>(least, kernel_.gap({r[i], z[i]}));
+            }
+            return least;
         }
 
         const SpectralMeridian& rules_;

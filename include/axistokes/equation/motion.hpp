@@ -20,6 +20,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace axistokes {
@@ -312,6 +313,16 @@ class MotionEquation {
     Matrix<S> matrix_;
     Vector<S> rhs_;
 };
+
+/// That of one body in a given mobility and background.
+template <class S, class Surface, class Law, class Solver>
+MobilitySolution<S> lone_motion(const Law& law, const Surface& surface, Matrix<S> mobility, Vector<S> background,
+                                const Vector<S>& load, Solver& solver) {
+    const Vector<S> no_tension;
+    const std::vector<EquationBody<S, Surface, Law>> bodies{{law, surface, load, no_tension}};
+    complete_rank<S>(bodies, mobility, background);
+    return std::move(MotionEquation<S, Surface, Law>(bodies, mobility, background, S(0)).solve(solver).front());
+}
 
 }  // namespace detail
 }  // namespace axistokes

@@ -45,8 +45,8 @@ void write_csv(const std::filesystem::path& path, const std::vector<Column<S>>& 
 }
 
 /// The nodes from the lower pole to the upper one, z relative to the centroid, and what is known there. Force densities
-/// (kappa/R0^3) are the membrane's on the fluid; velocities are in the laboratory frame. A body without tension or
-/// bending has no such columns.
+/// (kappa/R0^3) are the membrane's on the fluid; velocities are in the laboratory frame. What a
+/// body does not have, such as a tension or, rigid, a curvature and an elastic force, has no column.
 template <class S, class Surface>
 std::vector<Column<S>> shape_columns(const Configuration<S>& configuration, const Instant<S, Surface>& instant) {
     const Surface& surface = instant.surface;
@@ -54,8 +54,11 @@ std::vector<Column<S>> shape_columns(const Configuration<S>& configuration, cons
     const Index n = configuration.shape.nodes();
     std::vector<Column<S>> columns{
         {"arc_length", surface.arc_length}, {"r", configuration.shape.r},   {"z", configuration.shape.z},
-        {"normal_r", surface.normal_r},     {"normal_z", surface.normal_z}, {"mean_curvature", surface.mean_curvature},
+        {"normal_r", surface.normal_r},     {"normal_z", surface.normal_z},
     };
+    if (surface.mean_curvature.size() == n) {
+        columns.push_back({"mean_curvature", surface.mean_curvature});
+    }
     const auto add_field = [&](const std::string& name, const Vector<S>& field) {
         if (field.size() == 2 * n) {
             columns.push_back({name + "_r", field.head(n)});
@@ -66,7 +69,7 @@ std::vector<Column<S>> shape_columns(const Configuration<S>& configuration, cons
         columns.push_back({"tension", surface.at_nodes(solution.tension)});
     }
     add_field("force", solution.force);
-    add_field("bending_force", solution.bending);
+    add_field("elastic_force", solution.elastic);
     add_field("velocity", solution.velocity);
     return columns;
 }
@@ -103,6 +106,9 @@ std::vector<Column<S>> history_columns(const std::vector<StepRecord<S>>& history
         add("film_thickness_min", &Record::film_thickness_min);
         add("film_thickness_mean", &Record::film_thickness_mean);
         add("pressure_drop", &Record::pressure_drop);
+    }
+    if (!history.empty() && std::isfinite(static_cast<double>(history.back().neighbour_distance))) {
+        add("neighbour_distance", &Record::neighbour_distance);
     }
     add("rejected", &Record::rejected);
     add("redistributed", &Record::redistributed);

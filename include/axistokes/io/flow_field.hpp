@@ -2,7 +2,7 @@
 // The velocity of the fluid around (and in) a membrane, on a grid of the meridian half-plane.
 #pragma once
 
-#include "../membrane/flux.hpp"
+#include "../equation/flux.hpp"
 #include "../scene.hpp"
 
 #include <cmath>
@@ -80,10 +80,11 @@ template <class SceneType, class S, class Surface>
 FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configuration,
                         const Instant<S, Surface>& instant, FlowGrid<S> grid = {}) {
     const auto& kernel = scene.kernel();
-    if constexpr (requires { kernel.tube_radius(); }) {
+    if constexpr (requires(Point<S> x) { kernel.unit_flow(x); }) {
         using std::isfinite;
-        if (isfinite(kernel.tube_radius())) {
-            grid.radius = kernel.tube_radius();
+        const S radius = kernel.gap({S(0), configuration.position});
+        if (isfinite(radius)) {
+            grid.radius = radius;
         }
     }
     FlowField<S> field{detail::checked(grid), {}, {}, {}, {}};
@@ -134,7 +135,7 @@ FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configur
             field.points.r[node] = x.r;
             field.points.z[node] = x.z;
             field.inside[static_cast<std::size_t>(node)] = detail::encloses(configuration.shape, x);
-            if (x.r >= scene.wall_radius(x.z + configuration.position)) {
+            if (!(scene.gap({x.r, x.z + configuration.position}) > S(0))) {
                 field.velocity_r[node] = field.velocity_z[node] = S(0);
                 continue;
             }

@@ -151,7 +151,6 @@ template <class S = double>
 class FreeSpaceKernel {
   public:
     using Scalar = S;
-    static constexpr bool has_regular_part = false;
     static constexpr bool has_images = false;
     static constexpr bool laboratory_frame = false;
 

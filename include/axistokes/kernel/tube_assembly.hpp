@@ -17,18 +17,18 @@ namespace axistokes::detail {
 /// Factors of all points of a batch, slab by slab. A point's two velocity components are two rows; a wave number is
 /// four columns, (P, Q) x (cos, sin) or (P, Q) x (Re, Im), so arranged that -out is the product of target and source
 /// rows.
-template <class S, class Kernel>
+template <class S>
 class TubeAssembly {
   public:
-    TubeAssembly(const Kernel& kernel, const Meridian<S>& targets)
-        : kernel_(kernel), targets_(targets), target_gap_(gaps(targets, "target radius")) {}
+    TubeAssembly(const TubeImages<S>& images, const Meridian<S>& targets)
+        : images_(images), targets_(targets), target_gap_(gaps(targets, "target radius")) {}
 
     template <class Quadrature>
     void add_to(Matrix<S>& out, const Quadrature& quadrature) {
         const RegularQuadrature<S> close = quadrature(S(0));
         const Sources sources(*this, close);
         const S gap = target_gap_.minCoeff() + sources.gap.minCoeff();
-        Kernel::require_clear(gap);
+        images_.require_clear(gap);
         const S bottom = std::min(targets_.z.minCoeff(), close.points.z.minCoeff());
         const S top = std::max(targets_.z.maxCoeff(), close.points.z.maxCoeff());
         const S stray = (close.points.z - close.panel).cwiseAbs().maxCoeff();
@@ -36,9 +36,9 @@ class TubeAssembly {
         const auto height = static_cast<double>(edges_[1] - edges_[0]);
         const auto slack = static_cast<double>(stray);
         const auto slabs = static_cast<Index>(edges_.size()) - 1;
-        const auto eps = static_cast<double>(kernel_.params().tolerance);
+        const auto eps = static_cast<double>(images_.params().tolerance);
         const auto extent = static_cast<double>(top - bottom);
-        const S radius = kernel_.tube_radius();
+        const S radius = images_.radius();
         near(TubeSpectrum<S>(radius, 0, std::min(extent, 2 * height + slack), static_cast<double>(gap), eps), sources,
              out);
         if constexpr (RayScalar<S>::turned) {
@@ -70,7 +70,7 @@ class TubeAssembly {
     Vector<S> gaps(const Meridian<S>& m, const char* what) const {
         Vector<S> result(m.nodes());
         for (Index i = 0; i < m.nodes(); ++i) {
-            result[i] = kernel_.gap(m.r[i], what);
+            result[i] = images_.gap_inside(m.r[i], what);
         }
         return result;
     }
@@ -78,7 +78,7 @@ class TubeAssembly {
     /// Points stray at most a quarter of a slab's height out of their panel's slab.
     void make_slabs(const S& bottom, const S& top, const S& stray, const S& gap) {
         using std::sqrt;
-        const S least = std::max<S>(S(slab_height) * sqrt(gap * kernel_.tube_radius()), 4 * stray);
+        const S least = std::max<S>(S(slab_height) * sqrt(gap * images_.radius()), 4 * stray);
         const auto count = RayScalar<S>::turned
                                ? std::max<Index>(1, static_cast<Index>(static_cast<double>((top - bottom) / least)))
                                : 1;
@@ -276,7 +276,7 @@ class TubeAssembly {
         return result;
     }
 
-    const Kernel& kernel_;
+    const TubeImages<S>& images_;
     const Meridian<S>& targets_;
     Vector<S> target_gap_;
     std::vector<S> edges_;

@@ -14,20 +14,25 @@
 #include "tube.hpp"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace axistokes {
 
-/// As TubeKernel, with the correction by the paper's quadrature.
+/// The images of a tube by the paper's quadrature.
 template <class S = double>
-class TubeFilonKernel : public TubeKernel<S> {
+class TubeFilonImages : public detail::TubeWall<S> {
   public:
-    using typename TubeKernel<S>::Params;
+    using typename detail::TubeWall<S>::Params;
 
-    /// Throws InvalidArgument as TubeKernel does, and unless most_points (of each Filon zone) is at least 64.
-    explicit TubeFilonKernel(S tube_radius, Params params = {}, Index most_points = 1 << 17)
-        : TubeKernel<S>(tube_radius, params), most_points_(most_points) {
+    /// Throws InvalidArgument as TubeImages does, and unless most_points (of each Filon zone) is at least 64.
+    explicit TubeFilonImages(S radius, Params params = {}, Index most_points = 1 << 17)
+        : detail::TubeWall<S>(radius, params), most_points_(most_points) {
         detail::require(most_points >= 64, "most points of a zone", most_points, "at least 64");
+    }
+
+    TubeFilonImages loosened(const S& tolerance) const {
+        return TubeFilonImages(this->radius(), this->loosened_params(tolerance), most_points_);
     }
 
     KernelBlock<S> correction(const Point<S>& target, const Point<S>& source) const {
@@ -37,26 +42,26 @@ class TubeFilonKernel : public TubeKernel<S> {
         using std::log;
         using std::sin;
         using std::sqrt;
-        const S target_gap = this->gap(target.r, "target radius");
-        const S source_gap = this->gap(source.r, "source radius");
+        const S target_gap = this->gap_inside(target.r, "target radius");
+        const S source_gap = this->gap_inside(source.r, "source radius");
         this->require_clear(target_gap + source_gap);
         const S distance = abs(source.z - target.z);
         const auto integrand = [&](const S& zeta) {
             static const detail::ScaledITable<S> table(S(1));
-            const detail::TubeModeEvaluator<S> modes(zeta, S(1), this->tube_radius());
-            const detail::TubeCoupling<S> c = detail::tube_coupling<S>(zeta * this->tube_radius());
+            const detail::TubeModeEvaluator<S> modes(zeta, S(1), this->radius());
+            const detail::TubeCoupling<S> c = detail::tube_coupling<S>(zeta * this->radius());
             const detail::TubeModes<S> u = modes(target.r, target_gap, table);
             const detail::TubeModes<S> v = modes(source.r, source_gap, table);
             const auto entry = [&](const S& up, const S& uq, const S& vp, const S& vq) {
                 return S(c.pp * up * vp + c.pq * (up * vq + uq * vp) + c.qq * uq * vq);
             };
-            const S w = zeta * this->tube_radius();
+            const S w = zeta * this->radius();
             const S regularisation = 8 * exp(-w) * scaled_bessel_k<S>(w).k0;
             return Values{entry(u.rp, u.rq, v.rp, v.rq), entry(u.rp, u.rq, v.zp, v.zq), entry(u.zp, u.zq, v.rp, v.rq),
                           entry(u.zp, u.zq, v.zp, v.zq) - regularisation};
         };
         Values sum{};
-        sum[3] = 4 * detail::pi_value<S>() / sqrt(this->tube_radius() * this->tube_radius() + distance * distance);
+        sum[3] = 4 * detail::pi_value<S>() / sqrt(this->radius() * this->radius() + distance * distance);
         const auto add = [&](const S& zeta, const S& weight) {
             const Values f = integrand(zeta);
             const S c = weight * cos(zeta * distance);
@@ -67,9 +72,9 @@ class TubeFilonKernel : public TubeKernel<S> {
             sum[3] += c * f[3];
         };
 
-        const S first = S(1e-5) / this->tube_radius();
-        const S second = 2 / this->tube_radius();
-        const S decay = std::min<S>(target_gap + source_gap, this->tube_radius());
+        const S first = S(1e-5) / this->radius();
+        const S second = 2 / this->radius();
+        const S decay = std::min<S>(target_gap + source_gap, this->radius());
         const S third = std::max<S>(2 * second, log(S(1) / this->params().tolerance) / decay);
         static const GaussLegendreRule<S> legendre = gauss_legendre<S>(16);
         static const GaussLaguerreRule<S> laguerre = gauss_laguerre<S>(16);
@@ -87,29 +92,6 @@ class TubeFilonKernel : public TubeKernel<S> {
         }
         const S sign = source.z < target.z ? S(-1) : S(1);
         return {-source.r * sum[0], sign * source.r * sum[1], -sign * source.r * sum[2], -source.r * sum[3]};
-    }
-
-    KernelBlock<S> total(const Point<S>& target, const Point<S>& source) const {
-        return this->singular(target, source) + correction(target, source);
-    }
-
-    template <class Quadrature>
-    void regular(const Meridian<S>& targets, const Quadrature& quadrature, Matrix<S>& out) const {
-        const RegularQuadrature<S> sources = quadrature(S(0));
-        const Index rows = targets.nodes();
-        const Index columns = sources.weights.cols();
-        for (Index i = 0; i < rows; ++i) {
-            for (Index q = 0; q < sources.points.nodes(); ++q) {
-                const KernelBlock<S> m =
-                    correction({targets.r[i], targets.z[i]}, {sources.points.r[q], sources.points.z[q]});
-                for (typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator it(sources.weights, q); it; ++it) {
-                    out(i, it.col()) += it.value() * m.rr;
-                    out(i, columns + it.col()) += it.value() * m.rz;
-                    out(rows + i, it.col()) += it.value() * m.zr;
-                    out(rows + i, columns + it.col()) += it.value() * m.zz;
-                }
-            }
-        }
     }
 
   private:
@@ -162,6 +144,25 @@ class TubeFilonKernel : public TubeKernel<S> {
     }
 
     Index most_points_;
+};
+
+/// As TubeKernel, with the correction by the paper's quadrature.
+template <class S = double>
+class TubeFilonKernel : public ImagedKernel<S, TubeFilonImages<S>> {
+  public:
+    using Params = typename TubeFilonImages<S>::Params;
+
+    /// Throws InvalidArgument as TubeFilonImages does.
+    explicit TubeFilonKernel(S tube_radius, Params params = {}, Index most_points = 1 << 17)
+        : TubeFilonKernel(TubeFilonImages<S>(tube_radius, params, most_points)) {}
+    explicit TubeFilonKernel(TubeFilonImages<S> images)
+        : ImagedKernel<S, TubeFilonImages<S>>(std::move(images)) {}
+
+    const S& tube_radius() const { return this->images().radius(); }
+    const Params& params() const { return this->images().params(); }
+
+    /// The same with the error `tolerance`, or the present one if that is larger.
+    TubeFilonKernel loosened(const S& tolerance) const { return TubeFilonKernel(this->images().loosened(tolerance)); }
 };
 
 }  // namespace axistokes
