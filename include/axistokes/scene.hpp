@@ -105,8 +105,14 @@ class Scene {
     static constexpr bool deformable = detail::LawKinds<Law>::any_deformable;
     static constexpr bool confined = Kernel::has_images || Wall::present;
 
-    Scene(Kernel kernel, Discretization discretization, std::vector<Law> laws, Flow flow, Solver solver,
-          Wall wall = {})
+    /// One law for all bodies.
+    Scene(Kernel kernel, Discretization discretization, Law law, Flow flow, Solver solver, Wall wall = {})
+        : Scene(std::move(kernel), std::move(discretization), std::vector<Law>{std::move(law)}, std::move(flow),
+                std::move(solver), std::move(wall)) {}
+
+    /// A law for each body. Throws InvalidArgument if there is none.
+    template <std::same_as<std::vector<Law>> Laws>
+    Scene(Kernel kernel, Discretization discretization, Laws laws, Flow flow, Solver solver, Wall wall = {})
         : kernel_(std::move(kernel)),
           discretization_(std::move(discretization)),
           laws_(std::move(laws)),
@@ -116,9 +122,6 @@ class Scene {
           wall_(std::move(wall)) {
         detail::require(!laws_.empty(), "number of laws", laws_.size(), "at least 1");
     }
-    Scene(Kernel kernel, Discretization discretization, Law law, Flow flow, Solver solver, Wall wall = {})
-        : Scene(std::move(kernel), std::move(discretization), std::vector<Law>{std::move(law)}, std::move(flow),
-                std::move(solver), std::move(wall)) {}
 
     const Kernel& kernel() const { return kernel_; }
     const Discretization& discretization() const { return discretization_; }
@@ -459,5 +462,9 @@ class Scene {
     Solver explicit_solver_;
     Wall wall_;
 };
+
+template <class Kernel, class Discretization, class Law, class Flow, class Solver, class Wall = NoWall>
+Scene(Kernel, Discretization, std::vector<Law>, Flow, Solver, Wall = {})
+    -> Scene<Kernel, Discretization, Law, Flow, Solver, Wall>;
 
 }  // namespace axistokes
