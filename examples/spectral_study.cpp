@@ -31,7 +31,7 @@ Meridian<double> ellipse(double a, double c, Index n) {
 
 Vector<double> bending_force(Index n) {
     const auto surface = spectral_surface(ellipse(1, 2, n));
-    return Vesicle<double>::bending_operator(surface) * surface.positions();
+    return Vesicle<double>::force(surface);
 }
 
 /// Against the same on 48 modes, where round-off and truncation are balanced.

@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
             quadrature,
             dragged ? examples::Drive(Gravity<double>(4.5)) : examples::Drive(Poiseuille<double>(1, radius)),
             {},
+            dragged ? 0 : Poiseuille<double>(1, radius).mean_velocity(),
             details,
             {{"method", wall.method}, {"tolerance", quadrature}}};
         c.surroundings.tube_radius = radius;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The drag on a rigid spheroid that translates along its axis, against the analytic one.
+// A rigid spheroid that translates along its axis: its drag, in an unbounded fluid against the analytic one, or in a tube;
+// or, in Poiseuille flow, its velocity.
 #include "support/body_case.hpp"
 #include "support/command_line.hpp"
+#include "support/tube.hpp"
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace {
 
@@ -32,10 +35,18 @@ double analytic_drag(double a, double c) {
 
 int main(int argc, char** argv) {
     using axistokes::Index;
-    CLI::App app{"Drag on a rigid spheroid of volume 4 pi/3 that translates along its axis in an unbounded fluid"};
+    CLI::App app{
+        "A rigid spheroid of volume 4 pi/3 on the axis of an unbounded fluid or a tube: its drag, or, with --flow\n"
+        "poiseuille, its velocity when it floats freely"};
     examples::RunOptions run;
+    examples::TubeOptions tube;
     double aspect = 2;
+    std::string flow = "none";
     examples::add_number(app, "--aspect", aspect, "polar over equatorial semi-axis (> 1: prolate)");
+    tube.add_to(app, "the fluid is unbounded");
+    CLI::Option* floats = app.add_option("--flow", flow, "none: it is dragged along; poiseuille (in a tube): it floats freely")
+                              ->capture_default_str();
+    floats->needs("--confinement");
     examples::add_number(
         app, "--elements", run.elements,
         "elements, or modes, on the meridian (default: spectral 32, linear 64; with --preset-accuracy as many "
@@ -44,25 +55,53 @@ int main(int argc, char** argv) {
     run.add_output_to(app);
 
     return examples::run_program("spheroid_drag", app, argc, argv, [&] {
+        using axistokes::detail::require;
         run.method.check();
+        require(flow == "none" || flow == "poiseuille", "flow", flow, "none or poiseuille");
+        require(aspect > 0 && std::isfinite(aspect), "aspect ratio", aspect, "> 0 and finite");
         const auto accuracy = run.method.accuracy();
-        const auto drag = [&](const examples::BodyMotion& motion) -> nlohmann::ordered_json {
-            const double force = motion.weight.dot(motion.force.tail(motion.nodes.nodes()));
-            const double a = 1 / std::cbrt(aspect);
-            const double exact = analytic_drag(a, aspect * a);
-            const double computed = force / motion.velocity;
-            return {{"drag", computed}, {"analytic_drag", exact}, {"relative_error", computed / exact - 1}};
+        const double a = 1 / std::cbrt(aspect);
+        const bool dragged = flow == "none";
+        if (tube.confinement) {
+            require(a < tube.radius(), "confinement", *tube.confinement,
+                    ("< " + std::to_string(1 / a) + ", that is the spheroid must fit into the tube").c_str());
+        }
+        const auto details = [&](const examples::BodyMotion& motion) -> nlohmann::ordered_json {
+            if (!dragged) {
+                return {{"velocity_ratio", motion.velocity}};  // the flow's peak velocity is 1
+            }
+            const double computed = motion.weight.dot(motion.force.tail(motion.nodes.nodes())) / motion.velocity;
+            const double unbounded = analytic_drag(a, aspect * a);
+            nlohmann::ordered_json keys{{"drag", computed}, {"drag_factor", computed / (6 * std::numbers::pi)}};
+            if (!tube.confinement) {
+                keys["analytic_drag"] = unbounded;
+                keys["relative_error"] = computed / unbounded - 1;
+            } else {
+                keys["drag_over_unbounded"] = computed / unbounded;
+            }
+            return keys;
         };
-        return examples::run_body(
-            {run,
-             [&](Index elements) { return axistokes::spheroid_of_aspect<double>(aspect, elements); },
-             run.method.spectral() ? 32 : 64,
-             accuracy                ? accuracy->quadrature
-             : run.method.spectral() ? 1e-10
-                                     : 1e-6,
-             examples::Drive(axistokes::Gravity<double>(1)),
-             {},
-             drag,
-             {{"aspect", aspect}, {"bond", 1}}});
+        examples::BodyCase c{run,
+                             [&](Index elements) { return axistokes::spheroid_of_aspect<double>(aspect, elements); },
+                             run.method.spectral() ? 32 : 64,
+                             accuracy                ? accuracy->quadrature
+                             : run.method.spectral() ? 1e-10
+                                                     : 1e-6,
+                             examples::Drive(axistokes::Gravity<double>(1)),
+                             {},
+                             0,
+                             details,
+                             {{"aspect", aspect}}};
+        if (dragged) {
+            c.parameters["bond"] = 1;
+        } else {
+            const axistokes::Poiseuille<double> undisturbed(1, tube.radius());
+            c.drive = examples::Drive(undisturbed);
+            c.mean_velocity = undisturbed.mean_velocity();
+        }
+        if (tube.confinement) {
+            c.surroundings.tube_radius = tube.radius();
+        }
+        return examples::run_body(c);
     });
 }

@@ -7,6 +7,7 @@
 #include <axistokes/flow/gravity.hpp>
 #include <axistokes/flow/quiescent.hpp>
 #include <axistokes/flow/unbounded_poiseuille.hpp>
+#include <axistokes/geometry/distance.hpp>
 #include <axistokes/geometry/shapes.hpp>
 #include <axistokes/kernel/free_space.hpp>
 #include <axistokes/membrane/rigid_body.hpp>
@@ -256,13 +257,15 @@ TEST_CASE("an automatic step is cut down until it works", "[simulator]") {
     params.first_time_step = 1;
     params.most_steps = 5;
     Simulator<UnboundedPoiseuille<double>> simulator(prolate(0.6, 32), UnboundedPoiseuille<double>(20.0), params);
-    simulator.run();
+    Meridian<double> before = simulator.configuration().shape;
+    simulator.run([&](const Record&) {
+        const Meridian<double>& now = simulator.configuration().shape;
+        CHECK(axistokes::distance(now, before) <= 2 * params.largest_displacement);
+        before = now;
+    });
     REQUIRE(simulator.history().size() == 5);
     CHECK(simulator.history()[0].rejected > 0);
     CHECK(simulator.history()[0].dt == std::pow(0.5, simulator.history()[0].rejected));
-    for (const Record& record : simulator.history()) {
-        CHECK(record.dt * record.residual * 20 <= 2 * params.largest_displacement);
-    }
 }
 
 TEST_CASE("runs end when stationary, after most_steps, at longest_time, or when the observer says so", "[simulator]") {
@@ -303,8 +306,8 @@ TEST_CASE("bad shapes and parameters are refused before anything runs", "[simula
     CHECK(mentions(refuse(shape, {}), "r of meridian node 3", "-1", "> 0"));
     shape = prolate(0.6, 16);
     const double undefined = std::numeric_limits<double>::quiet_NaN();
-    for (const double tolerance : {0.0, 1.0, undefined}) {
-        CHECK(mentions(refuse(shape, with_tolerance(tolerance)), "stationarity tolerance", "=", "in (0, 1)"));
+    for (const double tolerance : {0.0, 1e-300, 1e-16, 1.0, undefined}) {
+        CHECK(mentions(refuse(shape, with_tolerance(tolerance)), "stationarity tolerance", "=", "in [8 eps, 1)"));
     }
     CHECK(mentions(refuse(shape, with_step(-0.5, 10)), "time step", "-0.5", "> 0"));
     CHECK(mentions(refuse(shape, with_step(undefined, 10)), "time step", "nan", "> 0"));

@@ -424,6 +424,7 @@ TEST_CASE("the tube kernel refuses bad input", "[tube]") {
     CHECK(mentions(refusal([&] { kernel.correction({0.5, 0}, {-0.5, 0}); }), "source radius", "-0.5", "tube radius"));
     CHECK(mentions(refusal([&] { kernel.correction({1, 0}, {1, 0.5}); }), "distances", "0", "> 0"));
     const LinearElements<double> elements;
-    CHECK(mentions(refusal([&] { elements.single_layer(sphere<double>(20, 1.1), kernel); }), "radius", "1.04",
+    // A shape got there by deformation.
+    CHECK(mentions(test::failure([&] { elements.single_layer(sphere<double>(20, 1.1), kernel); }), "radius", "1.04",
                    "tube radius"));
 }

@@ -7,8 +7,8 @@
 namespace examples {
 
 template <class D>
-typename D::Surface Compiled<D>::surface(const Shape& meridian) const {
-    return D::surface(meridian);
+typename D::Surface Compiled<D>::surface(const Shape& meridian, axistokes::SurfaceParts parts) const {
+    return D::surface(meridian, parts);
 }
 
 template <class D>

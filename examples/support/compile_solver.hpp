@@ -20,8 +20,8 @@ typename CompiledSolver<Scene>::State CompiledSolver<Scene>::solve(const axistok
 }
 
 template <class Scene>
-double CompiledSolver<Scene>::leading_growth_rate(const State& state) {
-    return solver_->growth_rates(state).front().real();
+std::vector<std::complex<double>> CompiledSolver<Scene>::growth_rates(const State& state) {
+    return solver_->growth_rates(state);
 }
 
 }  // namespace examples

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Policies whose costly templates are compiled once, in simulations/operators_*.cpp, membranes_*.cpp and newton*.cpp,
+// Policies whose costly templates are compiled once, in simulations/operators_*.cpp and newton*.cpp,
 // for all the programs that use them.
 #pragma once
 
@@ -13,7 +13,9 @@
 #include <axistokes/stationary/stationary_solver.hpp>
 #include <axistokes/wall/no_wall.hpp>
 
+#include <complex>
 #include <memory>
+#include <vector>
 
 namespace examples {
 
@@ -32,20 +34,12 @@ class Compiled : public Discretization {
         return Compiled(Discretization::loosened(tolerance).params());
     }
 
-    Surface surface(const Shape& meridian) const;
+    Surface surface(const Shape& meridian, axistokes::SurfaceParts parts = axistokes::SurfaceParts::all) const;
     axistokes::Matrix<double> single_layer(const Shape& meridian, const OptionalTubeKernel& kernel) const;
     axistokes::Matrix<double> single_layer(const Shape& meridian, const Free& kernel) const;
     axistokes::Matrix<double> single_layer_at(const Shape& targets, const Shape& meridian,
                                               const OptionalTubeKernel& kernel) const;
     axistokes::Matrix<double> single_layer_at(const Shape& targets, const Shape& meridian, const Free& kernel) const;
-};
-
-template <class Membrane, class Surface>
-class CompiledMembrane : public Membrane {
-  public:
-    using Scalar = double;
-    axistokes::MobilitySolution<double> solve(const axistokes::MobilityProblem<double, Surface>& problem,
-                                              axistokes::DenseLU<double>& solver) const;
 };
 
 /// A StationarySolver.
@@ -62,7 +56,7 @@ class CompiledSolver {
     ~CompiledSolver();
 
     State solve(const axistokes::Meridian<double>& shape, double area, double volume);
-    double leading_growth_rate(const State& state);
+    std::vector<std::complex<double>> growth_rates(const State& state);
 
   private:
     std::unique_ptr<Solver> solver_;
@@ -71,22 +65,19 @@ class CompiledSolver {
 using LinearElements = Compiled<axistokes::LinearElements<double>>;
 using SpectralMeridian = Compiled<axistokes::SpectralMeridian<double>>;
 template <class Discretization>
-using Vesicle = CompiledMembrane<axistokes::Vesicle<double>, typename Discretization::Surface>;
-template <class Discretization>
-using RigidBody = CompiledMembrane<axistokes::RigidBody<double>, typename Discretization::Surface>;
-
-template <class Discretization>
-using OpenScene = axistokes::Scene<OptionalTubeKernel, Discretization, Vesicle<Discretization>, Drive,
+using OpenScene = axistokes::Scene<OptionalTubeKernel, Discretization, axistokes::Vesicle<double>, Drive,
                                    axistokes::DenseLU<double>, axistokes::NoWall>;
+template <class Discretization>
+using MeshedScene = axistokes::Scene<axistokes::FreeSpaceKernel<double>, Discretization, axistokes::Vesicle<double>,
+                                     Drive, axistokes::DenseLU<double>,
+                                     axistokes::WallMesh<axistokes::StraightTube<double>>>;
 
 extern template class Compiled<axistokes::LinearElements<double>>;
 extern template class Compiled<axistokes::SpectralMeridian<double>>;
-extern template class CompiledMembrane<axistokes::Vesicle<double>, axistokes::LinearElements<double>::Surface>;
-extern template class CompiledMembrane<axistokes::Vesicle<double>, axistokes::SpectralMeridian<double>::Surface>;
-extern template class CompiledMembrane<axistokes::RigidBody<double>, axistokes::LinearElements<double>::Surface>;
-extern template class CompiledMembrane<axistokes::RigidBody<double>, axistokes::SpectralMeridian<double>::Surface>;
 
 extern template class CompiledSolver<OpenScene<LinearElements>>;
 extern template class CompiledSolver<OpenScene<SpectralMeridian>>;
+extern template class CompiledSolver<MeshedScene<LinearElements>>;
+extern template class CompiledSolver<MeshedScene<SpectralMeridian>>;
 
 }  // namespace examples

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <axistokes/accuracy.hpp>
+#include <axistokes/accuracy/driver_params.hpp>
 #include <axistokes/time/extrapolated_euler.hpp>
 
 #include <nlohmann/json.hpp>
@@ -21,7 +22,7 @@ struct MethodOptions {
     std::optional<std::string> integrator;
     /// Without --integrator and --preset-accuracy.
     std::string usual_integrator = "euler";
-    std::string stationary = "march";
+    std::string stationary = "auto";
     std::optional<std::string> preset;
 
     /// `rigid`: the integrator and the way to the stationary state are accepted, and make no difference.
@@ -39,7 +40,8 @@ struct MethodOptions {
                         *integrator == "adaptive",
                     "--integrator", *integrator, "euler, order2, order3 or adaptive");
         }
-        require(stationary == "march" || stationary == "newton", "--stationary", stationary, "march or newton");
+        require(stationary == "auto" || stationary == "march" || stationary == "newton", "--stationary", stationary,
+                "auto, march or newton");
         if (preset) {
             require(*preset == "fast" || *preset == "balanced" || *preset == "reference", "--preset-accuracy", *preset,
                     "fast, balanced or reference");
@@ -48,6 +50,11 @@ struct MethodOptions {
 
     bool spectral() const { return discretization.value_or("spectral") == "spectral"; }
     bool newton() const { return stationary == "newton"; }
+    axistokes::WayToStationary way() const {
+        return newton()                ? axistokes::WayToStationary::newton
+               : stationary == "march" ? axistokes::WayToStationary::march
+                                       : axistokes::WayToStationary::automatic;
+    }
     std::string integrator_name() const { return integrator.value_or(preset ? "adaptive" : usual_integrator); }
 
     /// `tolerance`: the error allowed in a step.

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "method.hpp"
+#include <axistokes/accuracy.hpp>
+#include <axistokes/accuracy/driver_params.hpp>
 #include <axistokes/geometry/shapes.hpp>
 #include <axistokes/simulator.hpp>
 
@@ -33,7 +35,7 @@ struct RunOptions {
     void add_output_to(CLI::App& app);
 
     /// Whether the number of elements is to follow from the accuracy.
-    bool adapts() const { return method.preset && !elements; }
+    bool adapts() const { return !elements; }
 
     axistokes::Index elements_or(axistokes::Index otherwise) const {
         const axistokes::Index count = elements.value_or(otherwise);
@@ -51,6 +53,24 @@ struct RunOptions {
             options.method.usual_integrator = "adaptive";
         }
         return options;
+    }
+
+    /// Without a preset only the number of elements follows from an accuracy, of 1e-4, and is the usual one at least.
+    axistokes::DriverParams<double> driver_params() const {
+        axistokes::DriverParams<double> driver;
+        driver.elements = elements ? std::optional(elements_or(0)) : std::nullopt;
+        driver.transient = transient();
+        driver.way = method.way();
+        if (const auto accuracy = method.accuracy()) {
+            driver.eps = accuracy->eps;
+            driver.unresolved = accuracy->unresolved;
+            driver.newton_tolerance = accuracy->residual;
+            driver.to_round_off = true;
+        } else {
+            driver.first_elements = method.spectral() ? 32 : 64;
+        }
+        driver.newton_tolerance = tolerance.value_or(driver.newton_tolerance);
+        return driver;
     }
 
     axistokes::SimulationParams<double> params() const {

@@ -9,7 +9,7 @@
 #include "neck.hpp"
 #include "passage_case.hpp"
 #include "progress.hpp"
-#include "resolution.hpp"
+#include <axistokes/accuracy/resolution.hpp>
 #include <axistokes/flow/quiescent.hpp>
 #include <axistokes/geometry/shapes.hpp>
 #include <axistokes/io/csv.hpp>
@@ -42,7 +42,7 @@ using axistokes::Meridian;
 using axistokes::Vector;
 
 template <class Discretization>
-using Passage = axistokes::Simulator<axistokes::FreeSpaceKernel<double>, Discretization, Vesicle<Discretization>,
+using Passage = axistokes::Simulator<axistokes::FreeSpaceKernel<double>, Discretization, axistokes::Vesicle<double>,
                                      axistokes::Quiescent<double>, axistokes::ExtrapolatedEulerOfOrder,
                                      axistokes::DenseLU<double>, axistokes::WallMesh<Channel>>;
 
@@ -126,7 +126,7 @@ class Track {
 template <class Discretization>
 class PassageRun {
     using Instant = typename Passage<Discretization>::InstantType;
-    static constexpr bool spectral = judges_itself<Discretization>;
+    static constexpr bool spectral = axistokes::JudgesItself<Discretization>;
     static constexpr double unresolved_to_error = axistokes::Accuracy<double>::unresolved_to_error;
 
   public:
@@ -134,7 +134,7 @@ class PassageRun {
         : options_(options),
           profile_(options.channel()),
           accuracy_(*options.method.accuracy()),
-          discretization_(discretization_for<Discretization>(options.method.accuracy())) {
+          discretization_(axistokes::discretization_for<Discretization>(options.method.accuracy())) {
         Meridian<double> shape = initial_shape();
         measures_ = discretization_.measures(shape);
         axistokes::require_passage(profile_, measures_.area, measures_.volume);
@@ -148,7 +148,7 @@ class PassageRun {
         params.largest_displacement = options.displacement;
         params.step_tolerance = options.step_tolerance.value_or(accuracy_.step);
         simulator_.emplace(shape, axistokes::Quiescent<double>{}, params, axistokes::FreeSpaceKernel<double>{},
-                           discretization_, Vesicle<Discretization>{}, options.method.steps(params.step_tolerance),
+                           discretization_, axistokes::Vesicle<double>{}, options.method.steps(params.step_tolerance),
                            axistokes::DenseLU<double>{}, axistokes::WallMesh<Channel>(profile_, wall));
     }
 
@@ -177,8 +177,8 @@ class PassageRun {
             return axistokes::spheroid_of_excess_area<double>(options_.excess_area, axistokes::SpheroidKind::prolate,
                                                               elements);
         };
-        return options_.elements ? nodes_of(discretization_, spheroid, *options_.elements)
-                                 : resolved_nodes(discretization_, spheroid, spectral ? 48 : 80, accuracy_.unresolved);
+        return options_.elements ? axistokes::nodes_of(discretization_, spheroid, *options_.elements)
+                                 : axistokes::resolved_nodes(discretization_, spheroid, spectral ? 48 : 80, accuracy_.unresolved);
     }
 
     double time() const { return simulator_->history().empty() ? 0 : simulator_->history().back().time; }
@@ -234,9 +234,9 @@ class PassageRun {
         if constexpr (spectral) {
             const Meridian<double>& now = simulator_->configuration().shape;
             double share = discretization_.unresolved(now);
-            if (!options_.elements && now.elements() < most_elements<Discretization> && share > accuracy_.unresolved) {
+            if (!options_.elements && now.elements() < axistokes::most_elements<Discretization> && share > accuracy_.unresolved) {
                 simulator_->refine(
-                    more_modes(now.elements(), share, accuracy_.unresolved, most_elements<Discretization>));
+                    axistokes::more_modes(now.elements(), share, accuracy_.unresolved, axistokes::most_elements<Discretization>));
                 share = discretization_.unresolved(now);
             }
             unresolved_ = std::max(unresolved_, share);

@@ -20,9 +20,12 @@ class ProgressBar {
     ProgressBar() : visible_(isatty(fileno(stderr)) != 0) {}
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
-    ~ProgressBar() {
+    ~ProgressBar() { hide(); }
+
+    void hide() {
         if (drawn_) {
             std::cerr << "\r\033[K" << std::flush;
+            drawn_ = false;
         }
     }
 

@@ -23,8 +23,8 @@ void write_results(const Simulator& simulator, const Ending<Simulator>& ending, 
         return;
     }
     const std::filesystem::path directory(options.directory);
-    const auto& configuration = ending.configuration;
-    const auto& instant = ending.instant;
+    const auto& configuration = ending.result.configuration;
+    const auto& instant = ending.result.instant;
     const std::vector<axistokes::Column<double>> shape = last_shape_columns(configuration, instant);
     axistokes::write_csv(directory / "shape.csv", shape);
     axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulator.history()));
@@ -51,7 +51,7 @@ int conclude(const Simulator& simulator, const Ending<Simulator>& ending, const 
     if (!ending.failure.empty()) {
         throw axistokes::SimulationFailure(ending.failure);
     }
-    return ending.interrupted ? interrupted : success;
+    return ending.result.interrupted ? interrupted : success;
 }
 
 }  // namespace examples

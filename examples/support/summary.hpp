@@ -2,10 +2,11 @@
 // The result of a run in a few numbers: as JSON and on the screen.
 #pragma once
 
-#include <axistokes/scene.hpp>
+#include <axistokes/accuracy/driver.hpp>
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <optional>
@@ -14,55 +15,28 @@
 
 namespace examples {
 
-/// What a run came to, by whatever way, and how long it took.
+/// What a run came to, and how long it took.
 template <class Simulator>
 struct Ending {
-    axistokes::Configuration<double> configuration;
-    std::optional<typename Simulator::InstantType> instant;
-    std::optional<double> velocity;
-    std::optional<double> residual;
-    double pressure_drop = 0;
-    bool stationary = false;
+    axistokes::DriverResult<Simulator> result;
     std::string failure;  // the cause, or empty
-    bool interrupted = false;
     double wall_seconds = 0;
-
-    /// Of the simulator's last step, its last good one if it failed. Velocities are those of the shape it ended with: a
-    /// step's own are those it started from.
-    void take(Simulator& simulator) {
-        configuration = simulator.configuration();
-        try {
-            instant = simulator.instant();
-        } catch (const axistokes::SimulationFailure&) {
-            // Reported already: the run cannot have ended well on such a shape.
-        }
-        stationary = simulator.stationary();
-        if (!simulator.history().empty()) {
-            const auto& last = simulator.history().back();
-            velocity = last.velocity;
-            residual = last.residual;
-            pressure_drop = last.pressure_drop;
-        }
-        if (instant) {
-            velocity = instant->velocity;
-            pressure_drop = instant->pressure_drop;
-        }
-    }
 };
 
+/// Keys that every run has. The estimate is null where there is none: the JSON format has no infinity.
 template <class Simulator>
 nlohmann::ordered_json summarize(const Simulator& simulator, const Ending<Simulator>& ending) {
-    const auto& configuration = ending.configuration;
+    const auto& result = ending.result;
+    const auto& configuration = result.configuration;
     const auto& shape = configuration.shape;
     const auto& discretization = simulator.scene().discretization();
     const axistokes::Measures<double> measures = discretization.measures(shape);
     const auto [bottom, top] = discretization.pole_curvatures(shape);
-    const auto& history = simulator.history();
 
     nlohmann::ordered_json summary;
-    if (ending.velocity) {
-        summary["velocity"] = *ending.velocity;
-        summary["lag"] = *ending.velocity - simulator.scene().centreline_velocity(configuration.position);
+    if (result.velocity) {
+        summary["velocity"] = *result.velocity;
+        summary["lag"] = *result.velocity - simulator.scene().centreline_velocity(configuration.position);
     }
     summary["length"] = shape.z[shape.nodes() - 1] - shape.z[0];
     summary["max_radius"] = discretization.max_radius(shape);
@@ -74,19 +48,43 @@ nlohmann::ordered_json summarize(const Simulator& simulator, const Ending<Simula
     summary["reduced_volume"] = measures.reduced_volume();
     summary["area_drift"] = measures.area / simulator.initial_area() - 1;
     summary["volume_drift"] = measures.volume / simulator.initial_volume() - 1;
-    summary["stationary"] = ending.stationary;
-    summary["time"] = history.empty() ? 0.0 : history.back().time;
-    summary["steps"] = history.size();
+    summary["stationary"] = result.stationary;
+    summary["time"] = simulator.time();
+    summary["steps"] = simulator.history().size();
     summary["elements"] = shape.elements();
     summary["wall_seconds"] = ending.wall_seconds;
     summary["position"] = configuration.position;
-    if (ending.residual) {
-        summary["residual"] = *ending.residual;
+    if (result.residual) {
+        summary["residual"] = *result.residual;
+    }
+    if (result.instant && result.instant->solution.tension.size() > 0) {
+        const auto tension = result.instant->surface.at_nodes(result.instant->solution.tension);
+        summary["tension_min"] = tension.minCoeff();
+        summary["tension_max"] = tension.maxCoeff();
+    }
+    summary["error_estimate"] = std::isfinite(result.error_estimate) ? nlohmann::ordered_json(result.error_estimate)
+                                                                     : nlohmann::ordered_json(nullptr);
+    summary["error_met"] = result.error_met();
+    summary["accuracy"] = result.eps;
+    if (!result.newton_failure.empty()) {
+        summary["newton_failure"] = result.newton_failure;
+    }
+    if (!result.refinement_failure.empty()) {
+        summary["refinement_failure"] = result.refinement_failure;
+    }
+    if (result.newton_iterations > 0) {
+        summary["newton_iterations"] = result.newton_iterations;
+        summary["newton_evaluations"] = result.newton_evaluations;
+    }
+    if (result.growth_rate) {
+        summary["stable"] = *result.growth_rate < 0;
+        summary["leading_growth_rate"] = *result.growth_rate;
+        summary["stability_elements"] = result.stability_elements;
     }
     if (!ending.failure.empty()) {
         summary["failure"] = ending.failure;
     }
-    if (ending.interrupted) {
+    if (result.interrupted) {
         summary["interrupted"] = true;
     }
     return summary;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Spheres or vesicles in line along the axis: settling, in a Poiseuille flow or, spheres, dragged with equal velocities;
+// in an unbounded fluid or in a tube.
+#include "support/command_line.hpp"
+#include "support/line_case.hpp"
+
+int main(int argc, char** argv) {
+    CLI::App app{"Equal bodies in line along the axis of an unbounded fluid or a tube"};
+    examples::LineCase c;
+    std::string kind = "vesicle";
+    examples::TubeOptions tube;
+    double bond = 0;
+    double capillary_number = 0;
+    double unbounded_capillary_number = 0;
+    std::optional<double> time;
+    app.add_option("--kind", kind, "sphere (rigid) or vesicle")->capture_default_str();
+    examples::add_number(app, "--count", c.count, "number of bodies");
+    examples::add_number(app, "--distance", c.distance, "from centre to centre, in R0");
+    c.vesicle.add_to(app);
+    tube.add_to(app, "the fluid is unbounded");
+    CLI::Option* by_bond = examples::add_number(app, "--bond", bond, "Bond number: the bodies settle along -z");
+    CLI::Option* bounded = examples::add_number(app, "--capillary-number", capillary_number,
+                                                "Ca of the Poiseuille flow in the tube (with --confinement)");
+    CLI::Option* unbounded = examples::add_number(app, "--unbounded-capillary-number", unbounded_capillary_number,
+                                                  "Ca_unb of the flow -c r^2 without walls");
+    by_bond->excludes(bounded)->excludes(unbounded);
+    bounded->excludes(unbounded)->needs("--confinement");
+    unbounded->excludes("--confinement");
+    examples::add_number(app, "--elements", c.run.elements,
+                         "elements, or modes, on each meridian (default: as many as the accuracy takes)");
+    examples::add_number(app, "--time", time, "how long to follow the bodies (default: vesicles 1, spheres 0)");
+    examples::add_number(app, "--step-tolerance", c.run.step_tolerance, "error allowed in a time step, in R0");
+    examples::add_number(app, "--max-steps", c.run.steps, "stop after this many steps");
+    app.add_option("--frames", c.frames, "shapes kept in frames.csv, equally spaced in time")->capture_default_str();
+    c.run.method.add_to(app);
+    c.run.add_output_to(app);
+
+    return examples::run_program("bodies_in_line", app, argc, argv, [&] {
+        using axistokes::detail::require;
+        require(kind == "sphere" || kind == "vesicle", "kind", kind, "sphere or vesicle");
+        require(c.count >= 1 && c.count <= 100, "count", c.count, "in [1, 100]");
+        require(c.distance > 0 && std::isfinite(c.distance), "distance", c.distance, "> 0 and finite");
+        require(c.frames >= 2 && c.frames <= 1000, "frames", c.frames, "in [2, 1000]");
+        c.spheres = kind == "sphere";
+        c.run.method.check();
+        require(!c.run.method.newton(), "--stationary", c.run.method.stationary,
+                "march or auto: bodies in line are followed in time");
+        if (time) {
+            require(*time >= 0 && std::isfinite(*time), "--time", *time, ">= 0 and finite");
+        }
+        const double duration = time.value_or(c.spheres ? 0.0 : 1.0);
+        require(c.spheres || duration > 0, "--time", duration, "> 0 for vesicles");
+        if (duration > 0) {
+            c.run.time = duration;
+        }
+        if (tube.confinement) {
+            c.surroundings.tube_radius = tube.radius();
+        }
+        c.dragged = c.spheres && by_bond->count() + bounded->count() + unbounded->count() == 0;
+        if (by_bond->count() > 0) {
+            c.drive = examples::Drive(axistokes::Gravity<double>(bond));
+        } else if (bounded->count() > 0) {
+            const axistokes::Poiseuille<double> flow(capillary_number, tube.radius());
+            c.drive = examples::Drive(flow);
+            c.mean_velocity = flow.mean_velocity();
+        } else if (unbounded->count() > 0) {
+            c.drive = examples::Drive(axistokes::UnboundedPoiseuille<double>(unbounded_capillary_number));
+        }
+        const auto shape = [&](axistokes::Index elements) {
+            return c.spheres        ? axistokes::sphere<double>(elements)
+                   : tube.confinement ? tube.shape(c.vesicle, elements)
+                                      : c.vesicle.shape(elements);
+        };
+        c.initial = shape;
+        c.parameters = {{"kind", kind}, {"count", c.count}, {"distance", c.distance}};
+        if (!c.spheres) {
+            c.parameters["excess_area"] = c.vesicle.excess_area;
+        }
+        return c.run.method.spectral() ? examples::run_line_spectral(c) : examples::run_line_linear(c);
+    });
+}

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Follows bodies in line and writes what came of them.
+#pragma once
+
+#include "compiled.hpp"
+#include "line_case.hpp"
+#include "progress.hpp"
+#include "run.hpp"
+#include <axistokes/accuracy/driver.hpp>
+#include <axistokes/wall/no_wall.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace examples {
+
+/// Shapes of all bodies kept on the way, one row a node.
+class LineFrames {
+  public:
+    void add(double time, std::size_t body, const axistokes::Meridian<double>& shape) {
+        for (axistokes::Index i = 0; i < shape.nodes(); ++i) {
+            const double row[] = {frame_, time, static_cast<double>(body), shape.r[i], shape.z[i]};
+            for (std::size_t c = 0; c < columns_.size(); ++c) {
+                columns_[c].push_back(row[c]);
+            }
+        }
+    }
+    void next() { ++frame_; }
+
+    std::vector<axistokes::Column<double>> columns() const {
+        static const char* const names[] = {"frame", "time", "body", "r", "z"};
+        std::vector<axistokes::Column<double>> result;
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            using axistokes::Vector;
+            const auto size = static_cast<axistokes::Index>(columns_[c].size());
+            result.push_back({names[c], Vector<double>(Eigen::Map<const Vector<double>>(columns_[c].data(), size))});
+        }
+        return result;
+    }
+
+  private:
+    double frame_ = 0;
+    std::vector<std::vector<double>> columns_ = std::vector<std::vector<double>>(5);
+};
+
+template <class Discretization>
+class LineRun {
+    using Law = axistokes::OneOf<axistokes::Vesicle<double>, axistokes::RigidBody<double>>;
+    using Simulator = axistokes::Simulator<OptionalTubeKernel, Discretization, Law, Drive,
+                                           axistokes::ExtrapolatedEulerOfOrder, axistokes::DenseLU<double>>;
+
+  public:
+    explicit LineRun(const LineCase& c)
+        : case_(c),
+          run_(c.run.resolved()),
+          discretization_(axistokes::discretization_for<Discretization>(run_.method.accuracy())) {}
+
+    int operator()() {
+        if (!run_.directory.empty()) {
+            axistokes::create_output_directory(run_.directory);
+        }
+        const auto begin = std::chrono::steady_clock::now();
+        const InterruptGuard guard;
+        ProgressBar bar;
+        const double duration = run_.time.value_or(0);
+        axistokes::Driver<Simulator, void> driver([&](axistokes::Index elements) { return simulator(elements); },
+                                                  run_.driver_params(), [&](const Simulator& s) {
+                                                      std::ostringstream text;
+                                                      text << "step " << s.history().size() << "  time " << s.time();
+                                                      bar.show(duration > 0 ? s.time() / duration : 1, text.str());
+                                                      visit(s, duration);
+                                                      return !guard.interrupted();
+                                                  });
+        std::string failure;
+        try {
+            driver.run();
+        } catch (const axistokes::SimulationFailure& error) {
+            failure = error.what();
+        }
+        bar.hide();
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return conclude(driver, failure, seconds);
+    }
+
+  private:
+    Simulator simulator(axistokes::Index elements) {
+        const double share = case_.spheres ? 1 : run_.driver_params().unresolved;
+        const auto shape = run_.adapts()
+                               ? axistokes::resolved_nodes(discretization_, case_.initial, elements, share)
+                               : axistokes::nodes_of(discretization_, case_.initial, elements);
+        std::vector<axistokes::Meridian<double>> shapes;
+        for (axistokes::Index b = 0; b < case_.count; ++b) {
+            const double place = (static_cast<double>(b) - static_cast<double>(case_.count - 1) / 2) * case_.distance;
+            shapes.push_back(axistokes::detail::shifted(shape, place));
+        }
+        axistokes::RigidBody<double> sphere;
+        if (case_.dragged) {
+            sphere.velocity = 1;
+        }
+        const auto accuracy = run_.method.accuracy();
+        const auto kernel = case_.surroundings.kernel(accuracy ? std::optional(accuracy->kernel) : std::nullopt);
+        const auto params = run_.params();
+        Simulator simulator(typename Simulator::SceneType(kernel, discretization_,
+                                                          case_.spheres ? Law(sphere) : Law(axistokes::Vesicle<double>()),
+                                                          case_.drive, axistokes::DenseLU<double>()),
+                            run_.method.steps(params.step_tolerance), shapes, params);
+        frames_ = LineFrames();
+        kept_ = 0;
+        visit(simulator, run_.time.value_or(0));
+        return simulator;
+    }
+
+    void visit(const Simulator& simulator, double duration) {
+        const double due = static_cast<double>(kept_) / static_cast<double>(case_.frames - 1) * duration;
+        if (kept_ >= case_.frames || simulator.time() < due * (1 - 1e-12)) {
+            return;
+        }
+        for (std::size_t b = 0; b < simulator.bodies(); ++b) {
+            frames_.add(simulator.time(), b, drawn_curve(discretization_, simulator.shape(b)));
+        }
+        frames_.next();
+        ++kept_;
+    }
+
+    template <class Driver>
+    int conclude(Driver& driver, const std::string& failure, double seconds) {
+        Simulator& simulator = driver.simulator();
+        const auto& result = driver.result();
+        nlohmann::ordered_json bodies = nlohmann::ordered_json::array();
+        double drop = 0;
+        bool known = true;
+        for (std::size_t b = 0; b < simulator.bodies(); ++b) {
+            const auto& configuration = simulator.configuration(b);
+            const auto& shape = configuration.shape;
+            const auto film = simulator.scene().film_thickness(simulator.state(), b);
+            nlohmann::ordered_json body{{"position", configuration.position},
+                                        {"length", shape.z[shape.nodes() - 1] - shape.z[0]},
+                                        {"max_radius", discretization_.max_radius(shape)},
+                                        {"elements", shape.elements()}};
+            if (std::isfinite(film.min)) {
+                body["film_thickness_min"] = film.min;
+                body["film_thickness_mean"] = film.mean;
+            }
+            if (std::isfinite(film.to_neighbour)) {
+                body["neighbour_distance"] = film.to_neighbour;
+            }
+            try {
+                const auto& instant = simulator.instant(b);
+                body["velocity"] = instant.velocity;
+                body["pressure_drop"] = instant.pressure_drop;
+                drop += instant.pressure_drop;
+                if (case_.dragged) {
+                    const axistokes::Index n = shape.nodes();
+                    body["drag_factor"] = instant.surface.weight.dot(instant.solution.force.tail(n)) /
+                                          (6 * std::numbers::pi * instant.velocity);
+                }
+            } catch (const axistokes::SimulationFailure&) {
+                known = false;  // the last shapes are what the failure is about
+            }
+            bodies.push_back(std::move(body));
+        }
+        nlohmann::ordered_json summary{{"bodies", bodies},
+                                       {"stationary", result.stationary},
+                                       {"time", simulator.time()},
+                                       {"steps", simulator.history().size()},
+                                       {"wall_seconds", seconds},
+                                       {"error_estimate", std::isfinite(result.error_estimate)
+                                                              ? nlohmann::ordered_json(result.error_estimate)
+                                                              : nlohmann::ordered_json(nullptr)},
+                                       {"error_met", result.error_met()},
+                                       {"accuracy", result.eps}};
+        if (case_.surroundings.tube_radius && known) {
+            summary["tube_radius"] = *case_.surroundings.tube_radius;
+            summary["pressure_drop"] = drop;
+        }
+        run_.method.describe(summary);
+        if (!failure.empty()) {
+            summary["failure"] = failure;
+        }
+        if (result.interrupted) {
+            summary["interrupted"] = true;
+        }
+        summary["parameters"] = case_.parameters;
+        write(simulator, summary);
+        print_bodies(summary);
+        if (!failure.empty()) {
+            throw axistokes::SimulationFailure(failure);
+        }
+        return result.interrupted ? interrupted : success;
+    }
+
+    void write(Simulator& simulator, const nlohmann::ordered_json& summary) {
+        if (run_.directory.empty()) {
+            return;
+        }
+        const std::filesystem::path directory(run_.directory);
+        for (std::size_t b = 0; b < simulator.bodies(); ++b) {
+            std::optional<typename Simulator::InstantType> instant;
+            try {
+                instant = simulator.instant(b);
+            } catch (const axistokes::SimulationFailure&) {
+                // Then the nodes alone.
+            }
+            const std::string number = "_" + std::to_string(b);
+            axistokes::write_csv(directory / ("shape" + number + ".csv"),
+                                 last_shape_columns(simulator.configuration(b), instant));
+            axistokes::write_csv(directory / ("history" + number + ".csv"),
+                                 axistokes::history_columns(simulator.history(b)));
+        }
+        axistokes::write_csv(directory / "frames.csv", frames_.columns());
+        axistokes::write_atomically(directory / "summary.json",
+                                    [&](std::ostream& out) { out << summary.dump(2) << '\n'; });
+    }
+
+    void print_bodies(const nlohmann::ordered_json& summary) const {
+        print(summary, run_.directory);
+        for (std::size_t b = 0; b < summary["bodies"].size(); ++b) {
+            std::cout << "  body " << b;
+            for (const auto& [key, value] : summary["bodies"][b].items()) {
+                std::cout << "  " << key << ' ' << value;
+            }
+            std::cout << '\n';
+        }
+    }
+
+    LineCase case_;
+    RunOptions run_;
+    Discretization discretization_;
+    LineFrames frames_;
+    axistokes::Index kept_ = 0;
+};
+
+}  // namespace examples

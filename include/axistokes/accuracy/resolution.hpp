@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// How many elements an accuracy takes, and how large the error of a result is (docs/accuracy.md).
+#pragma once
+
+#include "../accuracy.hpp"
+#include "../geometry/meridian.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <optional>
+
+namespace axistokes {
+
+/// A discretisation that tells from one shape whether it is resolved: `unresolved(shape)` is the share of the last modes.
+template <class Discretization>
+concept JudgesItself = requires(const Discretization& d, const Meridian<typename Discretization::Scalar>& shape) {
+    { d.unresolved(shape) } -> std::convertible_to<typename Discretization::Scalar>;
+};
+
+/// First and largest number of elements that are tried.
+template <class Discretization>
+constexpr Index first_elements = JudgesItself<Discretization> ? 16 : 32;
+template <class Discretization>
+constexpr Index most_elements = JudgesItself<Discretization> ? 160 : 256;
+
+/// The next number of modes when the share `now` of the last ones is to fall to `wanted`: they decay geometrically.
+inline Index more_modes(Index elements, double now, double wanted, Index most) {
+    const double n = static_cast<double>(elements);
+    const double needed = n * std::log(wanted / 3) / std::log(std::min(now, 0.5));
+    return std::min(static_cast<Index>(std::ceil(std::clamp(needed, 1.2 * n, 1.6 * n))), most);
+}
+
+/// The next number of elements of second order that reduces an error to the one wanted.
+inline Index more_elements(Index elements, double error, double wanted, Index most) {
+    const double n = static_cast<double>(elements);
+    const double needed = 1.1 * n * std::sqrt(error / wanted);
+    return std::min(static_cast<Index>(std::ceil(std::clamp(needed, 1.3 * n, 2 * n))), most);
+}
+
+/// `elements` elements on the curve that `shape(count)` gives any number of nodes on. A series wants its nodes spaced by
+/// itself: the initial shapes' spacing has kinks that it would have to resolve.
+template <class Discretization, class Shape>
+Meridian<typename Discretization::Scalar> nodes_of(const Discretization& discretization, const Shape& shape,
+                                                   Index elements) {
+    if constexpr (JudgesItself<Discretization>) {
+        return discretization.redistributed(shape(std::max<Index>(128, 2 * elements)), elements);
+    } else {
+        return shape(elements);
+    }
+}
+
+/// With `first` or more elements: as many as the share `wanted` of the last modes takes.
+template <class Discretization, class Shape>
+Meridian<typename Discretization::Scalar> resolved_nodes(const Discretization& discretization, const Shape& shape,
+                                                         Index first, double wanted) {
+    auto nodes = nodes_of(discretization, shape, first);
+    if constexpr (JudgesItself<Discretization>) {
+        constexpr Index most = most_elements<Discretization>;
+        for (auto share = static_cast<double>(discretization.unresolved(nodes));
+             share > wanted && nodes.elements() < most; share = static_cast<double>(discretization.unresolved(nodes))) {
+            nodes = nodes_of(discretization, shape, more_modes(nodes.elements(), share, wanted, most));
+        }
+    }
+    return nodes;
+}
+
+/// With integrals as accurate as that takes; without an accuracy the discretisation's own default.
+template <class Discretization, class S>
+Discretization discretization_for(const std::optional<Accuracy<S>>& accuracy) {
+    typename Discretization::Params params;
+    if (accuracy) {
+        params.tolerance = accuracy->quadrature;
+    }
+    return Discretization(params);
+}
+
+/// What an accuracy is about: the relative errors of velocity and length.
+struct MeasuredState {
+    double velocity;
+    double length;
+    Index elements;
+};
+
+/// The relative difference of two results: of velocities, unless they are next to nothing, and of lengths.
+inline double relative_difference(const MeasuredState& a, const MeasuredState& b) {
+    const double velocity = std::abs(a.velocity - b.velocity) / std::max(std::abs(b.velocity), 1e-3);
+    return std::max(velocity, std::abs(a.length - b.length) / b.length);
+}
+
+/// The error of the finer of two second-order results.
+inline double second_order_error(const MeasuredState& coarse, const MeasuredState& fine) {
+    const double ratio = static_cast<double>(fine.elements) / static_cast<double>(coarse.elements);
+    return relative_difference(coarse, fine) / (ratio * ratio - 1);
+}
+
+}  // namespace axistokes
