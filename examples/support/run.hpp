@@ -9,7 +9,9 @@
 #include "summary.hpp"
 #include <axistokes/io/csv.hpp>
 #include <axistokes/io/vtk.hpp>
+#include <axistokes/io/wall_stress.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <vector>
 
@@ -30,6 +32,13 @@ void write_results(const Simulator& simulator, const Ending<Simulator>& ending, 
     axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulator.history()));
     if (!frames.empty()) {
         axistokes::write_csv(directory / "frames.csv", frames.columns());
+    }
+    if (instant && std::isfinite(simulator.scene().gap({0, configuration.position}))) {
+        const double radius = simulator.scene().gap({0, configuration.position});
+        const auto wall = axistokes::wall_stress(simulator.scene(), configuration, *instant, 3 * radius);
+        axistokes::write_csv(directory / "wall.csv",
+                             std::vector<axistokes::Column<double>>{
+                                 {"z", wall.z}, {"shear_stress", wall.shear}, {"pressure", wall.pressure}});
     }
     if (options.vtk) {
         axistokes::write_vtk_surface(directory / "surface.vtp", shape);

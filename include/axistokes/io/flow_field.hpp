@@ -6,6 +6,7 @@
 #include "../scene.hpp"
 
 #include <cmath>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -74,8 +75,48 @@ Index node_at(const Meridian<S>& meridian, const Point<S>& x) {
 
 }  // namespace detail
 
-/// u = u_inf + G f at the grid's nodes, with the flow of a meshed wall; 0 beyond the wall. In a tube the grid ends
-/// there. Throws InvalidArgument when the grid is not positive, finite and of at least 2 x 2 nodes.
+/// The velocity u = u_inf + G f of the fluid around the one body of a scene, with the flow of a meshed wall, as a function of
+/// points off the body, z relative to the centroid: stacked, in the laboratory frame. `reach`: the largest |z| of a point.
+template <class SceneType, class S, class Surface>
+auto fluid_velocity(const SceneType& scene, const Configuration<S>& configuration, const Instant<S, Surface>& instant,
+                    const S& reach) {
+    // The uniform pressure in f moves nothing: without it, neither does its discretisation error.
+    const Vector<S> force = detail::without_flux<S>(instant.surface, instant.solution.force);
+    constexpr bool walled = std::remove_cvref_t<decltype(scene.wall())>::present;
+    const auto disturbance = [&] {
+        if constexpr (walled) {
+            // The scene's mesh need not reach as far. It is kept alive with the field that refers to it.
+            auto wall = std::make_shared<std::remove_cvref_t<decltype(scene.wall())>>(scene.wall().reaching(reach));
+            return [wall,
+                    channel = wall->field(scene.discretization(), scene.kernel(),
+                                          detail::shifted(configuration.shape, configuration.position), force),
+                    z = configuration.position](const Meridian<S>& points) {
+                return channel.velocity(detail::shifted(points, z));
+            };
+        } else {
+            const S z = std::remove_cvref_t<decltype(scene.kernel())>::laboratory_frame ? configuration.position : S(0);
+            return [&scene, shape = detail::shifted(configuration.shape, z), force, z](const Meridian<S>& points) {
+                return Vector<S>(scene.discretization().single_layer_at(detail::shifted(points, z), shape, scene.kernel()) *
+                                 force);
+            };
+        }
+    }();
+    return [disturbance, &scene, position = configuration.position](const Meridian<S>& points) {
+        Vector<S> velocity = disturbance(points);
+        if constexpr (std::remove_cvref_t<decltype(scene.flow())>::has_flow) {
+            const Index n = points.nodes();
+            for (Index i = 0; i < n; ++i) {
+                const Point<S> background = scene.flow().velocity({points.r[i], points.z[i] + position});
+                velocity[i] += background.r;
+                velocity[n + i] += background.z;
+            }
+        }
+        return velocity;
+    };
+}
+
+/// The velocity at the grid's nodes; 0 beyond the wall. In a tube the grid ends there. Throws InvalidArgument when the grid
+/// is not positive, finite and of at least 2 x 2 nodes.
 template <class SceneType, class S, class Surface>
 FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configuration,
                         const Instant<S, Surface>& instant, FlowGrid<S> grid = {}) {
@@ -93,42 +134,14 @@ FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configur
     field.velocity_r.resize(count);
     field.velocity_z.resize(count);
     field.inside.resize(static_cast<std::size_t>(count));
-
-    // The uniform pressure in f moves nothing: without it, neither does its discretisation error.
-    const Surface& surface = instant.surface;
-    const Vector<S> force = detail::without_flux<S>(surface, instant.solution.force);
-
-    // The scene's mesh need not reach as far as the grid.
-    constexpr bool walled = std::remove_cvref_t<decltype(scene.wall())>::present;
-    auto wall = [&] {
-        if constexpr (walled) {
-            return scene.wall().reaching(grid.half_length);
-        } else {
-            return scene.wall();
-        }
-    }();
-    Meridian<S> particle = configuration.shape;
-    particle.z.array() += configuration.position;
-    const auto disturbance = [&] {
-        if constexpr (walled) {
-            return [channel = wall.field(scene.discretization(), kernel, particle, force),
-                    z = configuration.position](Meridian<S> row) {
-                row.z.array() += z;
-                return channel.velocity(row);
-            };
-        } else {
-            return [&](const Meridian<S>& row) -> Vector<S> {
-                return scene.discretization().single_layer_at(row, configuration.shape, kernel) * force;
-            };
-        }
-    }();
+    const auto fluid = fluid_velocity(scene, configuration, instant, grid.half_length);
 
     // A row at a time: the matrix for all points would be large.
     const Index n = grid.columns;
     Meridian<S> row{Vector<S>::LinSpaced(n, S(0), grid.radius), Vector<S>(n)};
     for (Index k = 0; k < grid.rows; ++k) {
         row.z.setConstant(grid.half_length * (S(2 * k) / S(grid.rows - 1) - S(1)));
-        const Vector<S> velocity = disturbance(row);
+        const Vector<S> velocity = fluid(row);
         for (Index i = 0; i < n; ++i) {
             const Index node = k * n + i;
             const Point<S> x{row.r[i], row.z[i]};
@@ -147,11 +160,6 @@ FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configur
             }
             field.velocity_r[node] = velocity[i];
             field.velocity_z[node] = velocity[n + i];
-            if constexpr (std::remove_cvref_t<decltype(scene.flow())>::has_flow) {
-                const Point<S> background = scene.flow().velocity({x.r, x.z + configuration.position});
-                field.velocity_r[node] += background.r;
-                field.velocity_z[node] += background.z;
-            }
         }
     }
     return field;
