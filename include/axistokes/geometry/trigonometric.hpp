@@ -6,37 +6,18 @@
 // t times a polynomial of degree N - 2: interpolation is barycentric, differentiation exact.
 #pragma once
 
+#include "../quadrature/computed_once.hpp"
 #include "../quadrature/gauss_legendre.hpp"
 
 #include <Eigen/Core>
 
 #include <cmath>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <tuple>
 #include <utility>
 
 namespace axistokes {
 
 namespace detail {
-
-/// T(arguments), computed at the first call and shared by all.
-template <class T, class... Arguments>
-std::shared_ptr<const T> computed_once(Arguments... arguments) {
-    static std::mutex mutex;
-    static std::map<std::tuple<Arguments...>, std::shared_ptr<const T>> known;
-    const std::tuple<Arguments...> key(arguments...);
-    {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (const auto found = known.find(key); found != known.end()) {
-            return found->second;
-        }
-    }
-    auto value = std::make_shared<const T>(arguments...);
-    const std::lock_guard<std::mutex> lock(mutex);
-    return known.emplace(key, std::move(value)).first->second;
-}
 
 /// sum_k c_k cos(kt) and sum_k c_k sin(kt), k from 0 on, by Clenshaw's recurrence.
 template <class S>
