@@ -4,7 +4,8 @@
 
 #include "meridian_spline.hpp"
 
-#include <Eigen/QR>
+#include <cmath>
+#include <utility>
 
 namespace axistokes {
 
@@ -21,18 +22,41 @@ struct RestoringShift {
 
     RestoringShift(const Measures<S>& now, const S& area, const S& volume, const S& curvature,
                    const S& squared_curvature) {
-        // Of fixed size, in float, these make g++ 12 warn inside Eigen.
-        Matrix<S> jacobian(2, 2);
-        jacobian << 2 * curvature / area, 2 * squared_curvature / area, now.area / volume, curvature / volume;
-        Vector<S> defect(2);
-        defect << (area - now.area) / area, (volume - now.volume) / volume;
-        Eigen::CompleteOrthogonalDecomposition<Matrix<S>> decomposition;
-        decomposition.setThreshold(S(1e-5));
-        decomposition.compute(jacobian);
-        const Vector<S> change = decomposition.solve(defect);
-        constant = change[0];
-        by_curvature = change[1];
-        independent = decomposition.rank() == 2;
+        using std::abs;
+        using std::sqrt;
+        // Jacobian and defect, relative. QR of the columns, the longer one first: A P = Q [n, p; 0, d].
+        S ar = 2 * curvature / area;
+        S av = now.area / volume;
+        S br = 2 * squared_curvature / area;
+        S bv = curvature / volume;
+        S* a = &constant;
+        S* b = &by_curvature;
+        if (br * br + bv * bv > ar * ar + av * av) {
+            std::swap(ar, br);
+            std::swap(av, bv);
+            std::swap(a, b);
+        }
+        const S n = sqrt(ar * ar + av * av);
+        if (n == S(0)) {
+            independent = false;
+            return;
+        }
+        ar /= n;
+        av /= n;
+        const S p = ar * br + av * bv;
+        const S d = ar * bv - av * br;
+        const S area_defect = (area - now.area) / area;
+        const S volume_defect = (volume - now.volume) / volume;
+        const S along = ar * area_defect + av * volume_defect;
+        independent = abs(d) > S(1e-5) * n;
+        if (independent) {
+            *b = (ar * volume_defect - av * area_defect) / d;
+            *a = (along - p * *b) / n;
+        } else {
+            // Of all that leave the least defect, the smallest.
+            *a = along * n / (n * n + p * p);
+            *b = along * p / (n * n + p * p);
+        }
     }
 
     /// Nothing is left to do: what remains cannot be changed.
