@@ -488,4 +488,9 @@ class Simulator {
     Scalar time_{};
 };
 
+template <class Kernel, class Discretization, class Law, class Flow, class Solver, class Wall, class Integrator,
+          class... ShapesAndParams>
+Simulator(Scene<Kernel, Discretization, Law, Flow, Solver, Wall>, Integrator, ShapesAndParams...)
+    -> Simulator<Kernel, Discretization, Law, Flow, Integrator, Solver, Wall>;
+
 }  // namespace axistokes

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// The policies of docs/write_your_own.md, each against an exact result; the plane wall has test_plane_wall.cpp.
+#include "../examples/write_your_own/drop.hpp"
+#include "../examples/write_your_own/explicit_midpoint.hpp"
+#include "../examples/write_your_own/full_pivot_lu.hpp"
+#include "../examples/write_your_own/uniaxial_extension.hpp"
+#include "catch.hpp"
+#include "support.hpp"
+#include <axistokes/discretization/linear_elements.hpp>
+#include <axistokes/discretization/spectral_meridian.hpp>
+#include <axistokes/flow/gravity.hpp>
+#include <axistokes/flow/quiescent.hpp>
+#include <axistokes/flow/sum.hpp>
+#include <axistokes/kernel/free_space.hpp>
+#include <axistokes/membrane/rigid_body.hpp>
+#include <axistokes/membrane/vesicle.hpp>
+#include <axistokes/scene.hpp>
+#include <axistokes/simulator.hpp>
+#include <axistokes/solver/dense.hpp>
+#include <axistokes/stationary/stationary_solver.hpp>
+#include <axistokes/time/semi_implicit_euler.hpp>
+
+#include <cmath>
+
+namespace {
+
+using namespace axistokes;
+using axistokes::test::pi;
+using axistokes::test::Spheroid;
+using write_your_own::Drop;
+using write_your_own::ExplicitMidpoint;
+using write_your_own::FullPivotLU;
+using write_your_own::UniaxialExtension;
+
+template <class Membrane, class Flow>
+auto scene(Flow flow) {
+    return Scene(FreeSpaceKernel<double>{}, SpectralMeridian<double>{}, Membrane{}, flow, FullPivotLU<double>{});
+}
+
+/// A vesicle, after `steps` midpoint steps to a fixed time in an extension that moves it too.
+Configuration<double> after(Index steps) {
+    auto stretched = scene<Vesicle<double>>(UniaxialExtension<double>(2.0));
+    const double dt = 0.02 / static_cast<double>(steps);
+    Configuration<double> now{Spheroid{0.9, 1 / (0.9 * 0.9)}.meridian(8), 0.5, {}};
+    for (Index i = 0; i < steps; ++i) {
+        now = ExplicitMidpoint{}.step(stretched, stretched.moment({now}), dt).bodies.front();
+    }
+    return now;
+}
+
+}  // namespace
+
+TEST_CASE("your linear solver solves, and refuses a singular matrix", "[write_your_own]") {
+    static_assert(LinearSolver<FullPivotLU<double>>);
+    // Hilbert's matrix: the inverse is known, and a row of it has entries up to 1e5.
+    Matrix<double> hilbert(5, 5);
+    for (Index i = 0; i < 5; ++i) {
+        for (Index j = 0; j < 5; ++j) {
+            hilbert(i, j) = 1.0 / static_cast<double>(i + j + 1);
+        }
+    }
+    FullPivotLU<double> solver;
+    solver.factorize(hilbert);
+    const Vector<double> x = solver.solve(Vector<double>::Unit(5, 0));
+    const double exact[] = {25, -300, 1050, -1400, 630};
+    for (Index i = 0; i < 5; ++i) {
+        CHECK(x[i] == Approx(exact[i]).epsilon(1e-10));
+    }
+    CHECK(axistokes::test::failure([&] { solver.factorize(Matrix<double>::Ones(3, 3)); }).find("singular") !=
+          std::string::npos);
+    CHECK_THROWS_AS(solver.factorize(Matrix<double>::Constant(2, 2, std::nan(""))), SimulationFailure);
+}
+
+TEST_CASE("your linear solver gives a prolate spheroid Oberbeck's drag", "[write_your_own]") {
+    // F = 16 pi eta c e^3 U/[(1 + e^2) log((1 + e)/(1 - e)) - 2 e], eccentricity e (Happel & Brenner, 5-11).
+    const Spheroid s{std::cbrt(0.5), 2 * std::cbrt(0.5)};
+    const double e = std::sqrt(0.75);
+    const double drag = 16 * pi * s.c * e * e * e / ((1 + e * e) * std::log((1 + e) / (1 - e)) - 2 * e);
+    const double bond = 3;
+    const auto instant = scene<RigidBody<double>>(Gravity<double>(bond)).evaluate({s.meridian(32), 0.0, {}}, 0.0);
+    CHECK(instant.velocity == Approx(-bond * s.volume() / drag).epsilon(1e-9));
+}
+
+TEST_CASE("your background: a sphere in extension has its stresslet", "[write_your_own]") {
+    static_assert(Background<UniaxialExtension<double>>);
+    const double rate = 1.7;
+    const auto m = Spheroid{1, 1}.meridian(24);
+    const auto instant = scene<RigidBody<double>>(UniaxialExtension<double>(rate)).evaluate({m, 0.0, {}}, 0.0);
+    CHECK(std::abs(instant.velocity) < 1e-12);
+    // The traction on a sphere held in a strain E is 5 eta E.n (Einstein 1906; Batchelor 1970): the moment is
+    // (20/3) pi eta R^3 E. What the sphere does to the fluid is the opposite.
+    const Index n = m.nodes();
+    const Vector<double>& f = instant.solution.force;
+    CHECK(instant.surface.weight.dot(f.tail(n).cwiseProduct(m.z)) == Approx(-20.0 / 3 * pi * rate).epsilon(1e-9));
+    for (Index i = 0; i < n; ++i) {
+        CHECK(f[n + i] == Approx(-5 * rate * m.z[i]).margin(1e-8));
+        CHECK(f[i] == Approx(5 * rate / 2 * m.r[i]).margin(1e-8));
+    }
+}
+
+TEST_CASE("your background: a sphere off the stagnation point moves with the flow there", "[write_your_own]") {
+    // Faxen: the flow is linear.
+    const auto m = Spheroid{1, 1}.meridian(24);
+    const auto instant = scene<RigidBody<double>>(UniaxialExtension<double>(1.7)).evaluate({m, -3.0, {}}, 0.0);
+    CHECK(instant.velocity == Approx(-5.1).epsilon(1e-10));
+    auto settling = scene<RigidBody<double>>(Sum(UniaxialExtension<double>(1.7), Gravity<double>(9.0)));
+    CHECK(settling.evaluate({m, -3.0, {}}, 0.0).velocity == Approx(-7.1).epsilon(1e-10));
+}
+
+TEST_CASE("your time integrator has its order", "[write_your_own]") {
+    const Configuration<double> fine = after(256);
+    const auto error = [&fine](Index steps) {
+        const Configuration<double> now = after(steps);
+        return std::hypot((now.shape.r - fine.shape.r).norm(), (now.shape.z - fine.shape.z).norm(),
+                          now.position - fine.position);
+    };
+    const double coarse = error(16);
+    const double half = error(32);
+    INFO("errors " << coarse << ' ' << half);
+    // Against a solution of finite step: (1 - 1/256)/(1/4 - 1/256) = 4.05 instead of 4.
+    CHECK(axistokes::test::observed_order(coarse, half) == Approx(2.0).margin(0.1));
+    CHECK(half < 1e-5);
+}
+
+TEST_CASE("your policies together make a simulator", "[write_your_own]") {
+    using Stretched = Simulator<FreeSpaceKernel<double>, SpectralMeridian<double>, Vesicle<double>,
+                                UniaxialExtension<double>, ExplicitMidpoint, FullPivotLU<double>>;
+    SimulationParams<double> params;
+    params.time_step = 1e-3;
+    params.longest_time = 0.02;
+    Stretched simulator(Spheroid{0.9, 1 / (0.9 * 0.9)}.meridian(8), UniaxialExtension<double>(2.0), params);
+    simulator.run();
+    const auto& last = simulator.history().back();
+    CHECK(last.time == Approx(0.02));
+    CHECK(std::abs(last.volume_drift) < 1e-12);
+    CHECK(std::abs(last.area_drift) < 1e-12);
+}
+
+TEST_CASE("your law: a drop settles at 4/15 of its Bond number", "[write_your_own]") {
+    static_assert(LawFor<Drop<double>, SpectralMeridian<double>::Surface>);
+    static_assert(LawFor<Drop<double>, LinearElements<double>::Surface>);
+    const auto settled = [](const auto& discretization, const Meridian<double>& shape) {
+        Scene drop(FreeSpaceKernel<double>(), discretization, Drop<double>(), Gravity<double>(3), DenseLU<double>());
+        return drop.evaluate(Configuration<double>{shape, 0.0, {}}, 0.0).velocity;
+    };
+    CHECK(settled(SpectralMeridian<double>(), Spheroid{1, 1}.meridian(24)) == Approx(-0.8).epsilon(1e-12));
+    const double coarse = std::abs(settled(LinearElements<double>(), Spheroid{1, 1}.meridian(32)) + 0.8);
+    const double fine = std::abs(settled(LinearElements<double>(), Spheroid{1, 1}.meridian(64)) + 0.8);
+    CHECK(axistokes::test::observed_order(coarse, fine) > 1.8);
+}
+
+TEST_CASE("your law: a drop in an extension, by marching and by Newton's method", "[write_your_own]") {
+    const auto deformation = [](const Meridian<double>& m, const auto& discretization) {
+        const double length = m.z[m.elements()] - m.z[0];
+        const double width = 2 * discretization.max_radius(m);
+        return (length - width) / (length + width);
+    };
+    const SpectralMeridian<double> spectral;
+    const auto deformed = [&](double rate) {
+        SimulationParams<double> params;
+        params.tolerance = 1e-9;
+        Simulator march(Scene(FreeSpaceKernel<double>(), spectral, Drop<double>(1), UniaxialExtension<double>(rate),
+                              DenseLU<double>()),
+                        SemiImplicitEuler(), Spheroid{1, 1}.meridian(16), params);
+        CHECK(march.run());
+        StationarySolver newton(march.scene());
+        const auto state = newton.solve(Spheroid{1, 1}.meridian(16), march.initial_area(), march.initial_volume());
+        CHECK(newton.growth_rates(state).front().real() == Approx(-16.0 / 35).epsilon(0.02));
+        const double found = deformation(state.configuration.shape, spectral);
+        CHECK(found == Approx(deformation(march.configuration().shape, spectral)).epsilon(1e-6));
+        // The area has grown, the volume has not.
+        CHECK(march.history().back().area_drift > 0);
+        CHECK(std::abs(march.history().back().volume_drift) < 1e-12);
+        return found / rate;
+    };
+    // Taylor 1934, at equal viscosities D = (105/64) E/gamma to first order; half of the difference of extension and
+    // compression has no second-order term.
+    const auto odd = [&](double rate) { return (deformed(rate) + deformed(-rate)) / 2 - 105.0 / 64; };
+    const double coarse = odd(8e-3);
+    const double fine = odd(4e-3);
+    INFO("beyond first order " << coarse << ' ' << fine);
+    CHECK(std::abs(fine) < 5e-4);
+    CHECK(axistokes::test::observed_order(coarse, fine) == Approx(2).margin(0.2));
+}
