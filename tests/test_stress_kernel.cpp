@@ -365,6 +365,140 @@ TEST_CASE("the double layer of a uniform velocity is 1, 1/2 or 0 of it", "[stres
     }
 }
 
+namespace {
+
+TubeKernel<double> tube(double radius, double tolerance) {
+    TubeKernel<double>::Params params;
+    params.tolerance = tolerance;
+    return TubeKernel<double>(radius, params);
+}
+
+double largest(const KernelBlock<double>& m) {
+    return std::max({std::abs(m.rr), std::abs(m.rz), std::abs(m.zr), std::abs(m.zz)});
+}
+
+/// Q_T on the wall over Q in free space, at its worst for sources at `gap` from the wall.
+double wall_error(double gap, double tolerance) {
+    const auto kernel = tube(0.8, tolerance);
+    double worst = 0;
+    for (const double z : {-3.0, -1.0, -0.1, 0.0, 0.01, 0.3, 2.0}) {
+        for (const double angle : {0.0, 0.9, 2.2}) {
+            const Point<double> target{0.8, 0.2};
+            const Point<double> source{0.8 - gap, 0.2 + z};
+            const Point<double> normal{std::cos(angle), std::sin(angle)};
+            const auto free = kernel.stress(target, source, normal);
+            const auto images = kernel.stress_correction(target, source, normal);
+            worst = std::max(worst, largest(free + images) / largest(free));
+        }
+    }
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("in a tube Q vanishes for a target on the wall", "[stress][tube]") {
+    for (const double gap : {0.7, 0.3, 0.05, 0.005}) {
+        INFO("gap " << gap);
+        CHECK(wall_error(gap, 1e-12) < 1e-11);
+        CHECK(wall_error(gap, 1e-6) < 1e-6);
+    }
+}
+
+TEST_CASE("Q in a tube is the stress of the Green function", "[stress][tube]") {
+    // Minus the shear stress at x of the flow G(x, x0) of a ring at x0, by differences: M(x0, x)/r is that flow. The
+    // normal stresses differ by it too, the pressure being common to both.
+    const auto kernel = tube(0.8, 1e-13);
+    const Point<double> target{0.3, 0.1};
+    const Point<double> source{0.6, -0.2};
+    const double step = 1e-3;
+    const auto flow = [&](double dr, double dz) {
+        const Point<double> x{source.r + dr, source.z + dz};
+        const auto m = kernel.correction(target, x);
+        return KernelBlock<double>{m.rr / x.r, m.rz / x.r, m.zr / x.r, m.zz / x.r};
+    };
+    const auto slope = [&](double r, double z, double KernelBlock<double>::*entry) {
+        const auto difference = [&](double h) {
+            return (flow(r * h, z * h).*entry - flow(-r * h, -z * h).*entry) / (2 * h);
+        };
+        return (4 * difference(step) - difference(2 * step)) / 3;
+    };
+    using M = KernelBlock<double>;
+    const auto radial = kernel.stress_correction(target, source, {1, 0});
+    const auto axial = kernel.stress_correction(target, source, {0, 1});
+    const double r = source.r;
+    CHECK(radial.rz == Approx(-r * (slope(1, 0, &M::rz) + slope(0, 1, &M::rr))).epsilon(1e-8));
+    CHECK(axial.rr == Approx(radial.rz).epsilon(1e-11));
+    CHECK(radial.zz == Approx(-r * (slope(1, 0, &M::zz) + slope(0, 1, &M::zr))).epsilon(1e-8));
+    CHECK(axial.zr == Approx(radial.zz).epsilon(1e-11));
+    CHECK(radial.rr - axial.rz == Approx(-2 * r * (slope(1, 0, &M::rr) - slope(0, 1, &M::rz))).epsilon(1e-8));
+    CHECK(radial.zr - axial.zz == Approx(-2 * r * (slope(1, 0, &M::zr) - slope(0, 1, &M::zz))).epsilon(1e-8));
+}
+
+TEST_CASE("Q in a tube on the real axis of wave numbers", "[stress][tube]") {
+    // Types without a complex counterpart do not turn the path of integration.
+    TubeKernel<Wide>::Params params;
+    params.tolerance = Wide(1e-18);
+    const TubeKernel<Wide> wide(Wide(1), params);
+    const auto kernel = tube(1.0, 1e-13);
+    for (const double z : {-0.5, 0.0, 1.5}) {
+        const auto exact =
+            wide.stress_correction({Wide(0.375), Wide(0)}, {Wide(0.625), Wide(z)}, {Wide(0.75), Wide(0.5)});
+        const auto q = kernel.stress_correction({0.375, 0}, {0.625, z}, {0.75, 0.5});
+        CHECK(q.rr == Approx(static_cast<double>(exact.rr)).epsilon(1e-12));
+        CHECK(q.rz == Approx(static_cast<double>(exact.rz)).epsilon(1e-12));
+        CHECK(q.zr == Approx(static_cast<double>(exact.zr)).epsilon(1e-12));
+        CHECK(q.zz == Approx(static_cast<double>(exact.zz)).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("the wall's part of Q integrates to 0 over a closed surface", "[stress][tube]") {
+    const test::Spheroid shape{0.6, 1.0};
+    const auto kernel = tube(0.7, 1e-12);
+    const auto images = [&](const auto& target, const auto& source, const auto& normal) {
+        return kernel.stress_correction(target, source, normal);
+    };
+    const auto check = [&](const Point<double>& target, bool on_surface, double expected) {
+        const Point<double> u = uniform_flow(shape, target, on_surface, images);
+        INFO("target at " << target.r << ", " << target.z);
+        CHECK(std::abs(u.r) < 1e-10);
+        CHECK(u.z == Approx(expected).margin(1e-10));
+    };
+    check({0.2, 0.3}, false, 1.0);
+    check({0, -0.8}, false, 1.0);
+    check({0.6, 0}, true, 0.5);
+    check({0, -1}, true, 0.5);
+    check({0.65, 0.1}, false, 0.0);
+    check({0.3, -1.4}, false, 0.0);
+}
+
+TEST_CASE("a batch of the wall's part of Q is the sum of its pairs", "[stress][tube]") {
+    const auto kernel = tube(1.0, 1e-10);
+    const Meridian<double> targets{Vector<double>::LinSpaced(3, 0.0, 0.8), Vector<double>::LinSpaced(3, -0.5, 0.4)};
+    RegularQuadrature<double> sources;
+    sources.points = {Vector<double>::LinSpaced(2, 0.3, 0.6), Vector<double>::LinSpaced(2, 0.0, 0.7)};
+    sources.panel = sources.points.z;
+    sources.weights.resize(2, 2);
+    sources.weights.insert(0, 0) = 2;
+    sources.weights.insert(0, 1) = 3;
+    sources.weights.insert(1, 1) = 5;
+    Vector<double> normals(4);
+    normals << 0.6, 0.8, 0.8, -0.6;
+    Matrix<double> out = Matrix<double>::Zero(6, 4);
+    kernel.regular_stress(targets, sources, normals, out);
+    for (Index i = 0; i < 3; ++i) {
+        const Point<double> target{targets.r[i], targets.z[i]};
+        const auto first = kernel.stress_correction(target, {0.3, 0.0}, {0.6, 0.8});
+        const auto second = kernel.stress_correction(target, {0.6, 0.7}, {0.8, -0.6});
+        CHECK(out(i, 0) == Approx(2 * first.rr));
+        CHECK(out(i, 3) == Approx(3 * first.rz + 5 * second.rz));
+        CHECK(out(3 + i, 1) == Approx(3 * first.zr + 5 * second.zr));
+        CHECK(out(3 + i, 2) == Approx(2 * first.zz));
+    }
+    sources.points.r[0] = 1.2;
+    CHECK(test::mentions(test::failure([&] { kernel.regular_stress(targets, sources, normals, out); }), "source radius",
+                         "1.2", "tube radius"));
+}
+
 TEST_CASE("report: worst errors of Q by region", "[.report]") {
     std::cout << "Q, double: worst error over 300 pairs a region, in units of the type's epsilon\n"
               << std::setw(32) << "block" << std::setw(10) << "entry" << '\n';
@@ -373,5 +507,14 @@ TEST_CASE("report: worst errors of Q by region", "[.report]") {
         const double eps = std::numeric_limits<double>::epsilon();
         std::cout << std::left << std::setw(24) << region.name << std::right << std::fixed << std::setprecision(1)
                   << std::setw(8) << worst.block / eps << std::setw(10) << worst.entry / eps << '\n';
+    }
+}
+
+TEST_CASE("report: Q in a tube on the wall", "[.report]") {
+    std::cout << "Q on the wall over Q in free space\n  gap/Rc      1e-12        1e-8\n";
+    for (const double gap : {0.5, 0.1, 0.01, 0.001}) {
+        std::cout << std::defaultfloat << std::setw(8) << gap << std::scientific << std::setprecision(1)
+                  << std::setw(12) << wall_error(0.8 * gap, 1e-12) << std::setw(12) << wall_error(0.8 * gap, 1e-8)
+                  << '\n';
     }
 }

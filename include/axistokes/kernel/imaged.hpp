@@ -13,6 +13,7 @@
 //
 //   regular(targets, quadrature, out)               a batch faster than pair by pair
 //   loosened(tolerance) -> the same type            less accurate and faster
+//   stress_correction(target, source, normal) -> KernelBlock   the same for the double layer's kernel
 //   unit_flow(point) -> Point                       a straight tube's undisturbed flow of flow rate 1
 //   static constexpr bool laboratory_frame          true if M_c depends on z itself, not only on z - z0 (a plane wall)
 //
@@ -38,16 +39,15 @@ constexpr bool images_in_laboratory_frame() {
     }
 }
 
-/// out += `correction` integrated over the sources, pair by pair; the layout is that of ImagedKernel::regular.
-template <class S, class Images>
-void regular_by_pairs(const Images& images, const Meridian<S>& targets, const RegularQuadrature<S>& sources,
-                      Matrix<S>& out) {
+/// out += kernel(target, source index) integrated over the sources; the layout is that of ImagedKernel::regular.
+template <class S, class Kernel>
+void integrate_by_pairs(const Kernel& kernel, const Meridian<S>& targets, const RegularQuadrature<S>& sources,
+                        Matrix<S>& out) {
     const Index rows = targets.nodes();
     const Index columns = sources.weights.cols();
     for (Index i = 0; i < rows; ++i) {
         for (Index q = 0; q < sources.points.nodes(); ++q) {
-            const KernelBlock<S> m = images.correction(Point<S>{targets.r[i], targets.z[i]},
-                                                       Point<S>{sources.points.r[q], sources.points.z[q]});
+            const KernelBlock<S> m = kernel(Point<S>{targets.r[i], targets.z[i]}, q);
             for (typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator it(sources.weights, q); it; ++it) {
                 out(i, it.col()) += it.value() * m.rr;
                 out(i, columns + it.col()) += it.value() * m.rz;
@@ -56,6 +56,17 @@ void regular_by_pairs(const Images& images, const Meridian<S>& targets, const Re
             }
         }
     }
+}
+
+/// ImagedKernel::regular by the images' `correction` of every pair.
+template <class S, class Images>
+void regular_by_pairs(const Images& images, const Meridian<S>& targets, const RegularQuadrature<S>& sources,
+                      Matrix<S>& out) {
+    integrate_by_pairs<S>(
+        [&](const Point<S>& target, Index q) {
+            return images.correction(target, Point<S>{sources.points.r[q], sources.points.z[q]});
+        },
+        targets, sources, out);
 }
 
 }  // namespace detail
@@ -108,6 +119,43 @@ class ImagedKernel {
             } else {
                 detail::regular_by_pairs<S>(images_, targets, quadrature(S(0)), out);
             }
+        } catch (const InvalidArgument& outside) {
+            throw SimulationFailure(outside.what());
+        }
+    }
+
+    /// The double layer's kernel in free space, which carries the singularity: as FreeSpaceKernel.
+    void stress(const Point<S>& target, const S* r, const S* z, const S* normal_r, const S* normal_z, Index n,
+                const KernelArrays<S>& out) const {
+        free_space_.stress(target, r, z, normal_r, normal_z, n, out);
+    }
+    KernelBlock<S> stress(const Point<S>& target, const Point<S>& source, const Point<S>& normal) const {
+        return free_space_.stress(target, source, normal);
+    }
+    void stress_split(const Point<S>& target, const S* r, const S* z, const S* normal_r, const S* normal_z, Index n,
+                      const KernelArrays<S>& smooth, const KernelArrays<S>& log_coefficient) const {
+        free_space_.stress_split(target, r, z, normal_r, normal_z, n, smooth, log_coefficient);
+    }
+
+    /// The wall's part of the double layer's kernel, for probing: as `correction`.
+    KernelBlock<S> stress_correction(const Point<S>& target, const Point<S>& source, const Point<S>& normal) const
+        requires(requires(const Images& images) { images.stress_correction(target, source, normal); }) {
+        return images_.stress_correction(target, source, normal);
+    }
+
+    /// out += the wall's part of the double layer's kernel integrated over the sources, pair by pair, with `normals` at
+    /// the quadrature points, stacked [r; z]. Layout, weights and failures as of `regular`.
+    void regular_stress(const Meridian<S>& targets, const RegularQuadrature<S>& sources, const Vector<S>& normals,
+                        Matrix<S>& out) const
+        requires(requires(const Images& images, Point<S> x) { images.stress_correction(x, x, x); }) {
+        const Index n = sources.points.nodes();
+        try {
+            detail::integrate_by_pairs<S>(
+                [&](const Point<S>& target, Index q) {
+                    return images_.stress_correction(target, Point<S>{sources.points.r[q], sources.points.z[q]},
+                                                     Point<S>{normals[q], normals[n + q]});
+                },
+                targets, sources, out);
         } catch (const InvalidArgument& outside) {
             throw SimulationFailure(outside.what());
         }

@@ -123,6 +123,46 @@ class TubeImages : public detail::TubeWall<S> {
         return {-source.r * m.rr, sign * source.r * m.rz, -sign * source.r * m.zr, -source.r * m.zz};
     }
 
+    /// The wall's part of the double layer's kernel for a ring at `source` with the unit normal `normal`; added to
+    /// FreeSpaceKernel::stress it makes 0 for a target on the wall. Minus the stress, at the source, of the flow of a
+    /// force at the target, which the modes give (tube_modes.hpp, eq. 3). For probing, like `correction`, and throws
+    /// as it does; the tolerance is relative to the free-space kernel.
+    KernelBlock<S> stress_correction(const Point<S>& target, const Point<S>& source, const Point<S>& normal) const {
+        using std::abs;
+        using Ray = detail::RayScalar<S>;
+        using C = typename Ray::type;
+        const S target_gap = this->gap_inside(target.r, "target radius");
+        const S source_gap = this->gap_inside(source.r, "source radius");
+        this->require_clear(target_gap + source_gap);
+        const S zh = source.z - target.z;
+        const auto far = static_cast<double>(abs(zh));
+        // Twice zeta times the velocity's integrand, so that the tail, where zeta is some 30/gap, weighs more.
+        const auto eps = static_cast<double>(this->params().tolerance) / 64;
+        const detail::TubeSpectrum<C> spectrum(this->radius(), far, far, static_cast<double>(target_gap + source_gap),
+                                               eps);
+        KernelBlock<S> radial;  // of n_r; the second one of n_z, in the order rz, rr, zz, zr
+        KernelBlock<S> axial;
+        for (std::size_t k = 0; k < spectrum.size(); ++k) {
+            // The coupling is symmetric and may as well be taken with the target.
+            const detail::TubeModes<C> u = spectrum.source(k, target.r, target_gap);
+            const detail::TubeStresses<C> s = spectrum.stress(k, source.r, source_gap);
+            add_phase(radial, spectrum.zeta(k), abs(zh), u, {s.p.rz, s.p.rr, s.q.rz, s.q.rr});
+            add_phase(axial, spectrum.zeta(k), abs(zh), u, {s.p.rz, s.p.zz, s.q.rz, s.q.zz});
+        }
+        const S sign = zh < S(0) ? S(-1) : S(1);
+        if constexpr (Ray::turned) {
+            // Far away the pressure is +-16 pi (1 - r0^2/Rc^2)/Rc^2, an integral of sin(zeta zh)/zeta. The path turned
+            // away from this pole leaves out an eighth of a circle about it: half of that pressure.
+            const S inverse = S(1) / this->radius();
+            const S share = target_gap * inverse * (S(1) + target.r * inverse);  // 1 - r0^2/Rc^2
+            const S pressure = 8 * detail::pi_value<S>() * share * (inverse * inverse);
+            radial.zr += source.r * pressure;
+            axial.zr += source.r * pressure;
+        }
+        return {normal.r * radial.rr - sign * normal.z * axial.rz, normal.z * axial.rr - sign * normal.r * radial.rz,
+                normal.z * axial.zz + sign * normal.r * radial.zr, normal.r * radial.zz + sign * normal.z * axial.zr};
+    }
+
     /// As ImagedKernel::regular. Throws InvalidArgument for a point outside the tube or a target and a source both on
     /// the wall.
     template <class Quadrature>

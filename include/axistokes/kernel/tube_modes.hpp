@@ -9,6 +9,12 @@
 //   phase: rr, zz: cos(zeta zh)    zr: sin(zeta zh)    rz: -sin(zeta zh)
 //   S_PP = 4 [2 I0 K0 - 1 + 2 W I1 K0]    S_QQ = 4 [2 I1 K1 - 1 + 2 W I1 K0]    S_PQ = 4 W [I0 K0 - I1 K1]   (at W) (2)
 //
+// Pressure and stress of the two modes (viscosity 1), u_z = f_z cos(zeta z), u_r = f_r sin(zeta z): only
+// t I1 cos(zeta z), t I2 sin(zeta z) carries a pressure, 2 zeta I0 sin(zeta z). With beta that flow's share in a mode,
+//
+//   r sigma_rr = [2 zeta r (f_z - beta I0) - 2 f_r] sin(zeta z)     r sigma_zz = -2 zeta r (f_z + beta I0) sin(zeta z)
+//   r sigma_rz = 2 zeta r (f_r + beta I1) cos(zeta z)                                                              (3)
+//
 // zeta may be complex: for zh of one sign the path of (1) can be turned into the quadrant where exp(i zeta |zh|)
 // decays.
 #pragma once
@@ -33,6 +39,16 @@ struct TubeCoupling {
 template <class C>
 struct TubeModes {
     C zp{}, rp{}, zq{}, rq{};
+};
+
+/// The stress (3) of a mode, times r, without the phase.
+template <class C>
+struct TubeStress {
+    C rr{}, rz{}, zz{};
+};
+template <class C>
+struct TubeStresses {
+    TubeStress<C> p, q;
 };
 
 /// S at W, for any |W|. Away from zero 1 = W (I0 K1 + I1 K0) is used to form the small results from small terms.
@@ -144,21 +160,9 @@ class TubeModeEvaluator {
         const WallFactors<C>& w = wall_;
         const C t = zeta_ * r;
         if (series_) {
-            static const SmallArgumentSeries<S> series;
-            const C q = t * t / S(4);
-            std::size_t k = series.i0.size() - 1;
-            C i0 = C(series.i0[k]);
-            C first = C(series.first[k]);
-            C second = C(series.second[k]);
-            while (k-- > 0) {
-                i0 = i0 * q + series.i0[k];
-                first = first * q + series.first[k];
-                second = second * q + series.second[k];
-            }
-            const C i1 = t / S(2) * first;
-            const C ti1 = S(2) * q * first;
-            const C ti2 = q / S(2) * t * second;
-            return {w.wi2 * i0 - w.i1 * ti1, w.wi2 * i1 - w.i1 * ti2, w.i0 * ti1 - w.wi1 * i0, w.i0 * ti2 - w.wi1 * i1};
+            const SmallBessel b(t);
+            return {w.wi2 * b.i0 - w.i1 * b.ti1, w.wi2 * b.i1 - w.i1 * b.ti2, w.i0 * b.ti1 - w.wi1 * b.i0,
+                    w.i0 * b.ti2 - w.wi1 * b.i1};
         }
         // W - t = zeta gap taken out of the differences of products: no cancellation of large W against large t.
         const ScaledIPair<C> b = table(modulus_ * r);
@@ -173,7 +177,53 @@ class TubeModeEvaluator {
                 i0 * (q - S(2) * w.i0) + c * w.outer};
     }
 
+    /// The stresses (3) there.
+    TubeStresses<C> stress(const S& r, const S& gap, const ScaledITable<C>& table) const {
+        const TubeModes<C> u = (*this)(r, gap, table);
+        const C t = zeta_ * r;
+        C i0;
+        C i1;
+        if (series_) {
+            const SmallBessel b(t);
+            i0 = b.i0;
+            i1 = b.i1;
+        } else {
+            const ScaledIPair<C> b = table(modulus_ * r);
+            const C decay = ray_decay<C>(modulus_, gap);
+            i0 = decay * b.i0;
+            i1 = i0 - decay * b.difference;
+        }
+        // beta is -I1(W) over the determinant for P, I0(W) over it for Q.
+        const auto mode = [&](const C& fz, const C& fr, const C& beta) {
+            const C pressure = beta * i0;
+            return TubeStress<C>{S(2) * (t * (fz - pressure) - fr), S(2) * t * (fr + beta * i1),
+                                 S(-2) * t * (fz + pressure)};
+        };
+        return {mode(u.zp, u.rp, -wall_.i1), mode(u.zq, u.rq, wall_.i0)};
+    }
+
   private:
+    /// I0, I1, t I1 and t I2 by their power series, for |t| <= 2.
+    struct SmallBessel {
+        explicit SmallBessel(const C& t) {
+            static const SmallArgumentSeries<S> series;
+            const C q = t * t / S(4);
+            std::size_t k = series.i0.size() - 1;
+            i0 = C(series.i0[k]);
+            C first = C(series.first[k]);
+            C second = C(series.second[k]);
+            while (k-- > 0) {
+                i0 = i0 * q + series.i0[k];
+                first = first * q + series.first[k];
+                second = second * q + series.second[k];
+            }
+            i1 = t / S(2) * first;
+            ti1 = S(2) * q * first;
+            ti2 = q / S(2) * t * second;
+        }
+        C i0, i1, ti1, ti2;
+    };
+
     S modulus_;
     C zeta_, w_;
     S tube_radius_;

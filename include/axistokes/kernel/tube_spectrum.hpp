@@ -79,6 +79,11 @@ class TubeSpectrum {
 
     TubeModes<C> target(std::size_t k, const S& r, const S& gap) const { return evaluators_[k](r, gap, bessel()); }
 
+    /// The modes' stresses, times r.
+    TubeStresses<C> stress(std::size_t k, const S& r, const S& gap) const {
+        return evaluators_[k].stress(r, gap, bessel());
+    }
+
     /// sum_l S_kl u^l, with the quadrature weight.
     TubeModes<C> source(std::size_t k, const S& r, const S& gap) const {
         const TubeModes<C> u = target(k, r, gap);
