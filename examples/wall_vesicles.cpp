@@ -172,7 +172,7 @@ void cost(const Options& options, const State& state) {
         Tube tube(StraightTube<double>(options.radius()), params);
         tube.confine(fine, scene.kernel(), {configuration.shape}, frozen.mobility, frozen.background);
         const std::vector<detail::EquationBody<double, ByWall::Surface, Vesicle<double>>> bodies{
-            {scene.law(), frozen.bodies[0].surface, frozen.bodies[0].load, configuration.tension}};
+            {scene.law(), frozen.bodies[0].surface, frozen.bodies[0].load, configuration.tension, {}}};
         detail::complete_rank<double>(bodies, frozen.mobility, frozen.background);
         return force_error(scene.evaluate(frozen, {configuration}, 0).front());
     };

@@ -156,6 +156,7 @@ TEST_CASE("your law: a drop in an extension, by marching and by Newton's method"
         return (length - width) / (length + width);
     };
     const SpectralMeridian<double> spectral;
+    double growth = 0;  // summed
     const auto deformed = [&](double rate) {
         SimulationParams<double> params;
         params.tolerance = 1e-9;
@@ -165,7 +166,7 @@ TEST_CASE("your law: a drop in an extension, by marching and by Newton's method"
         CHECK(march.run());
         StationarySolver newton(march.scene());
         const auto state = newton.solve(Spheroid{1, 1}.meridian(16), march.initial_area(), march.initial_volume());
-        CHECK(newton.growth_rates(state).front().real() == Approx(-16.0 / 35).epsilon(0.02));
+        growth += newton.growth_rates(state).front().real();
         const double found = deformation(state.configuration.shape, spectral);
         CHECK(found == Approx(deformation(march.configuration().shape, spectral)).epsilon(1e-6));
         // The area has grown, the volume has not.
@@ -177,6 +178,7 @@ TEST_CASE("your law: a drop in an extension, by marching and by Newton's method"
     // compression has no second-order term.
     const auto odd = [&](double rate) { return (deformed(rate) + deformed(-rate)) / 2 - 105.0 / 64; };
     const double coarse = odd(8e-3);
+    CHECK(growth / 2 == Approx(-16.0 / 35).epsilon(3e-3));
     const double fine = odd(4e-3);
     INFO("beyond first order " << coarse << ' ' << fine);
     CHECK(std::abs(fine) < 5e-4);

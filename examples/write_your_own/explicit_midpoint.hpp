@@ -17,17 +17,16 @@ struct ExplicitMidpoint {
     }
 
   private:
-    /// All bodies displaced by dt u. A meridian is relative to its centroid, which moves with the velocity U:
-    /// x += dt (u - U e_z), z_c += dt U.
+    /// All bodies displaced by dt v. A meridian is relative to its centroid, which moves with the velocity U, and so is the
+    /// velocity v of its nodes: x += dt v, z_c += dt U.
     template <class S, class Instants>
     static std::vector<axistokes::Configuration<S>> moved(std::vector<axistokes::Configuration<S>> bodies,
                                                           const Instants& instants, const S& dt) {
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             axistokes::Configuration<S>& body = bodies[b];
             const axistokes::Index n = body.shape.nodes();
-            const axistokes::Vector<S>& u = instants[b].solution.velocity;
-            body.shape.r += dt * u.head(n);
-            body.shape.z += dt * (u.tail(n).array() - instants[b].velocity).matrix();
+            body.shape.r += dt * instants[b].node_velocity.head(n);
+            body.shape.z += dt * instants[b].node_velocity.tail(n);
             // The poles stay on the axis, to the last digit.
             body.shape.r[0] = body.shape.r[n - 1] = 0;
             body.position += dt * instants[b].velocity;

@@ -28,7 +28,9 @@ template <class S, class Surface>
 struct Instant {
     Surface surface;
     MobilitySolution<S> solution;
-    S velocity{};  // of the centroid, along z
+    Vector<S> node_velocity;  // relative to the centroid, stacked: that of the fluid, or, for a law without a
+                              // constraint, its normal part
+    S velocity{};             // of the centroid, along z
     /// Largest normal velocity relative to the centroid's: 0 in a stationary state.
     S deformation_rate{};
     /// Added by the body to the pressure drop along the tube or channel, in kappa/R0^3; 0 without one.
@@ -178,7 +180,10 @@ class Scene {
     Instants evaluate(const Frozen& frozen, const State& state, const Scalar& implicit_time) {
         std::vector<detail::EquationBody<Scalar, Surface, Law>> bodies;
         for (std::size_t b = 0; b < state.size(); ++b) {
-            bodies.push_back({law(b), frozen.bodies[b].surface, frozen.bodies[b].load, state[b].tension});
+            bodies.push_back({law(b), frozen.bodies[b].surface, frozen.bodies[b].load, state[b].tension, {}});
+        }
+        if constexpr (deformable) {
+            add_slip(frozen, state, implicit_time, bodies);
         }
         detail::MotionEquation<Scalar, Surface, Law> equation(bodies, frozen.mobility, frozen.background,
                                                               implicit_time);
@@ -194,6 +199,7 @@ class Scene {
             const auto [velocity, deformation] = detail::relative_normal_velocity<Scalar>(
                 instant.surface, state[b].shape.z, instant.solution.velocity);
             instant.velocity = velocity;
+            instant.node_velocity = node_velocity(b, instant, bodies[b].slip, deformation);
             instant.deformation_rate = deforms(b) ? deformation.cwiseAbs().maxCoeff() : Scalar(0);
             const Index n = state[b].shape.nodes();
             if (frozen.unit_flow.size() > 0) {
@@ -310,6 +316,40 @@ class Scene {
     }
 
   private:
+    /// For an implicit step of interfaces that flow along themselves: how, from the velocities at its start. In a
+    /// stationary state of, say, a drop in a flow that part never stops.
+    void add_slip(const Frozen& frozen, const State& state, const Scalar& implicit_time,
+                  std::vector<detail::EquationBody<Scalar, Surface, Law>>& bodies) {
+        bool slips = false;
+        for (std::size_t b = 0; b < state.size(); ++b) {
+            slips = slips || !detail::nodes_follow(law(b));
+        }
+        if (!slips || implicit_time == Scalar(0)) {
+            return;
+        }
+        const Instants now = evaluate(frozen, state, Scalar(0));
+        for (std::size_t b = 0; b < state.size(); ++b) {
+            if (!detail::nodes_follow(law(b))) {
+                bodies[b].slip = now[b].solution.velocity - now[b].node_velocity;
+                bodies[b].slip.tail(state[b].shape.nodes()).array() -= now[b].velocity;
+            }
+        }
+    }
+
+    Vector<Scalar> node_velocity(std::size_t body, const InstantType& instant, const Vector<Scalar>& slip,
+                                 const Vector<Scalar>& normal) const {
+        const Index n = instant.surface.size();
+        Vector<Scalar> v = instant.solution.velocity;
+        v.tail(n).array() -= instant.velocity;
+        if (slip.size() > 0) {
+            return v - slip;
+        }
+        if (!detail::nodes_follow(law(body))) {
+            v << instant.surface.normal_r.cwiseProduct(normal), instant.surface.normal_z.cwiseProduct(normal);
+        }
+        return v;
+    }
+
     /// Coordinates of the nodes in the frame of the evaluation: the body's own if it is alone and the kernel does not mind.
     Scalar origin(const State& state) const {
         return Kernel::laboratory_frame ? Scalar(0) : state.front().position;
@@ -349,7 +389,7 @@ class Scene {
         for (std::size_t b = 0; b < state.size(); ++b) {
             FrozenBody& body = frozen.bodies[b];
             body.shear_rate = shear_rate(state[b].shape, frozen.background, begin);
-            bodies.push_back({law(b), body.surface, body.load, state[b].tension});
+            bodies.push_back({law(b), body.surface, body.load, state[b].tension, {}});
             begin += 2 * state[b].shape.nodes();
         }
         detail::complete_rank<Scalar>(bodies, frozen.mobility, frozen.background);

@@ -45,8 +45,21 @@ struct DriverResult {
     bool error_met() const { return error_estimate <= eps; }
 };
 
+namespace detail {
+
+template <class SceneType>
+struct UsualSolver {
+    using type = void;
+};
+template <class SceneType>
+requires(SceneType::deformable) struct UsualSolver<SceneType> {
+    using type = StationarySolver<SceneType>;
+};
+
+}  // namespace detail
+
 /// Runs simulations of one body, or, marching only, of several. Without a Solver (void) all states are marched to.
-template <class Simulator, class Solver = StationarySolver<typename Simulator::SceneType>>
+template <class Simulator, class Solver = typename detail::UsualSolver<typename Simulator::SceneType>::type>
 class Driver {
   public:
     using S = typename Simulator::Scalar;
@@ -293,15 +306,15 @@ class Driver {
         return sum / S(length(simulator_->configuration()));
     }
 
-    /// P1: a third of the difference to a run with half of the elements.
+    /// P1: from the difference to a run with three quarters of the elements; half of them may not be in the range of second order.
     void estimate_from_coarser() {
         const MeasuredState fine = measured(*simulator_);
-        const Index half = std::max(minimum_elements, fine.elements / 2);
-        if (half == fine.elements || stopped_) {
+        const Index fewer = std::max(minimum_elements, (3 * fine.elements) / 4);
+        if (fewer == fine.elements || stopped_) {
             return;
         }
         try {
-            Simulator coarse = make_(half);
+            Simulator coarse = make_(fewer);
             coarse.run([&](const auto&) { return !coarse.finished(); });
             result_.error_estimate = S(second_order_error(measured(coarse), fine)) + time_error();
         } catch (const SimulationFailure&) {
@@ -450,12 +463,12 @@ class Driver {
         return {double(state.instant.velocity), length(state.configuration), state.configuration.shape.elements()};
     }
 
-    /// P1: against half of the elements.
+    /// P1: against three quarters of the elements.
     template <class Newton, class State>
     S coarse_difference(Newton& solver, const State& fine, const S& area, const S& volume) {
-        const Index half = std::max(minimum_elements, fine.configuration.shape.elements() / 2);
+        const Index fewer = std::max(minimum_elements, (3 * fine.configuration.shape.elements()) / 4);
         try {
-            const auto coarse = solver.solve(discretization().redistributed(fine.configuration.shape, half), area, volume);
+            const auto coarse = solver.solve(discretization().redistributed(fine.configuration.shape, fewer), area, volume);
             return S(second_order_error(measured_state(coarse), measured_state(fine)));
         } catch (const SimulationFailure&) {
             return std::numeric_limits<S>::infinity();

@@ -3,7 +3,7 @@
 //
 // With G the single layer of all nodes of all bodies, the velocities are u = u_inf + G f, and each body adds what its
 // law says of f and u:
-//   law          f = f(x) + load + t F u,        t the implicit time, F the law's linearisation,
+//   law          f = f(x) + load + t F (u - slip),   t the implicit time, F the law's linearisation,
 //   inextensible f += T gamma,  D u = 0,         T, D the surface's tension force and divergence,
 //   rigid        u = U e_z,                      U given, or Int f_z dA = Int load_z dA.
 // Unknowns are u where f depends on it, gamma, and f and U of a rigid body: with y all of them, u = u_0 + V y.
@@ -38,13 +38,15 @@ struct MobilitySolution {
 namespace detail {
 
 /// A body in the equations: its law, its frozen surface, the background's force density on it, and the tension of the
-/// step before, or an empty vector.
+/// step before, or an empty vector. `slip` (empty: none) is the part of the velocity that its nodes do not follow: an
+/// interface that flows along itself has the shape at x + t (u - slip), not that at x + t u with frozen normals.
 template <class S, class Surface, class Law>
 struct EquationBody {
     const Law& law;
     const Surface& surface;
     const Vector<S>& load;
     const Vector<S>& tension;
+    Vector<S> slip{};
 };
 
 /// Resistance of a sphere, which has no area to spare: its tension grows without bound against any deformation, although
@@ -171,6 +173,9 @@ class MotionEquation {
             const bool saturated = inextensible && is_sphere(surface);
             if (time != S(0)) {
                 p.of_velocity = time * law.linearisation(surface, body.tension);
+                if (body.slip.size() > 0) {
+                    p.given_force -= p.of_velocity * body.slip;
+                }
             }
             if (saturated) {
                 const Vector<S> resistance = Vector<S>::Constant(surface.size(), S(-2 * saturated_resistance<S>()));
@@ -319,7 +324,7 @@ template <class S, class Surface, class Law, class Solver>
 MobilitySolution<S> lone_motion(const Law& law, const Surface& surface, Matrix<S> mobility, Vector<S> background,
                                 const Vector<S>& load, Solver& solver) {
     const Vector<S> no_tension;
-    const std::vector<EquationBody<S, Surface, Law>> bodies{{law, surface, load, no_tension}};
+    const std::vector<EquationBody<S, Surface, Law>> bodies{{law, surface, load, no_tension, {}}};
     complete_rank<S>(bodies, mobility, background);
     return std::move(MotionEquation<S, Surface, Law>(bodies, mobility, background, S(0)).solve(solver).front());
 }

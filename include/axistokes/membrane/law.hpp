@@ -89,6 +89,13 @@ bool is_rigid(const L& law) {
         law, [](const auto& kind) { return std::decay_t<decltype(kind)>::constraint == Constraint::rigid; });
 }
 
+/// Whether an interface's nodes follow it along itself. Without a constraint they need not: they move along the normals.
+template <class L>
+bool nodes_follow(const L& law) {
+    return LawKinds<L>::visit(
+        law, [](const auto& kind) { return std::decay_t<decltype(kind)>::constraint != Constraint::none; });
+}
+
 template <class L>
 bool keeps_area(const L& law) {
     return LawKinds<L>::visit(law, [](const auto& kind) {

@@ -17,13 +17,12 @@ struct Step {
 
 namespace detail {
 
-/// x += dt (u - U e_z), z_c += dt U.
+/// x += dt v, z_c += dt U, v the velocity of the nodes relative to the centroid.
 template <class S, class InstantType>
 void euler_move(Configuration<S>& now, const InstantType& instant, const S& dt) {
     const Index n = now.shape.nodes();
-    const Vector<S>& u = instant.solution.velocity;
-    now.shape.r += dt * u.head(n);
-    now.shape.z += dt * (u.tail(n).array() - instant.velocity).matrix();
+    now.shape.r += dt * instant.node_velocity.head(n);
+    now.shape.z += dt * instant.node_velocity.tail(n);
     now.shape.r[0] = now.shape.r[n - 1] = 0;
     now.position += dt * instant.velocity;
 }
