@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Spheres or vesicles in line along the axis: settling, in a Poiseuille flow or, spheres, dragged with equal velocities;
-// in an unbounded fluid or in a tube.
+// Spheres or vesicles in line along the axis: settling, in a Poiseuille flow or, spheres, dragged with equal
+// velocities; in an unbounded fluid or in a tube.
 #include "support/command_line.hpp"
 #include "support/line_case.hpp"
 
@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
             c.drive = examples::Drive(axistokes::UnboundedPoiseuille<double>(unbounded_capillary_number));
         }
         const auto shape = [&](axistokes::Index elements) {
-            return c.spheres        ? axistokes::sphere<double>(elements)
+            return c.spheres          ? axistokes::sphere<double>(elements)
                    : tube.confinement ? tube.shape(c.vesicle, elements)
                                       : c.vesicle.shape(elements);
         };

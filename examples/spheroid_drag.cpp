@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A rigid spheroid that translates along its axis: its drag, in an unbounded fluid against the analytic one, or in a tube;
-// or, in Poiseuille flow, its velocity.
+// A rigid spheroid that translates along its axis: its drag, in an unbounded fluid against the analytic one, or in a
+// tube; or, in Poiseuille flow, its velocity.
 #include "support/body_case.hpp"
 #include "support/command_line.hpp"
 #include "support/tube.hpp"
@@ -44,8 +44,9 @@ int main(int argc, char** argv) {
     std::string flow = "none";
     examples::add_number(app, "--aspect", aspect, "polar over equatorial semi-axis (> 1: prolate)");
     tube.add_to(app, "the fluid is unbounded");
-    CLI::Option* floats = app.add_option("--flow", flow, "none: it is dragged along; poiseuille (in a tube): it floats freely")
-                              ->capture_default_str();
+    CLI::Option* floats =
+        app.add_option("--flow", flow, "none: it is dragged along; poiseuille (in a tube): it floats freely")
+            ->capture_default_str();
     floats->needs("--confinement");
     examples::add_number(
         app, "--elements", run.elements,

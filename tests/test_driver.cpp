@@ -20,8 +20,8 @@ namespace {
 using namespace axistokes;
 
 template <class Discretization, class Law>
-using Settling = Simulator<FreeSpaceKernel<double>, Discretization, Law, Gravity<double>, ExtrapolatedEulerOfOrder,
-                           DenseLU<double>>;
+using Settling =
+    Simulator<FreeSpaceKernel<double>, Discretization, Law, Gravity<double>, ExtrapolatedEulerOfOrder, DenseLU<double>>;
 
 template <class Discretization, class Law = Vesicle<double>>
 auto settling(double excess_area, double bond, double longest_time = 0) {
@@ -47,7 +47,8 @@ TEST_CASE("A stationary state by itself: as many modes as the accuracy takes, an
     DriverParams<double> params;
     params.eps = 1e-6;
     params.unresolved = 2e-6;
-    Driver<Settling<SpectralMeridian<double>, Vesicle<double>>> driver(settling<SpectralMeridian<double>>(0.6, 47.0), params);
+    Driver<Settling<SpectralMeridian<double>, Vesicle<double>>> driver(settling<SpectralMeridian<double>>(0.6, 47.0),
+                                                                       params);
     const auto& result = driver.run();
     CHECK(result.stationary);
     CHECK(result.error_met());
@@ -64,7 +65,8 @@ TEST_CASE("P1 elements are held against half of them") {
         DriverParams<double> params;
         params.elements = 48;
         params.way = way;
-        Driver<Settling<LinearElements<double>, Vesicle<double>>> driver(settling<LinearElements<double>>(0.6, 47.0), params);
+        Driver<Settling<LinearElements<double>, Vesicle<double>>> driver(settling<LinearElements<double>>(0.6, 47.0),
+                                                                         params);
         const auto& result = driver.run();
         const double error = std::abs(*result.velocity / kVelocity - 1);
         CHECK(result.stationary);
@@ -78,8 +80,8 @@ TEST_CASE("To a given time the first-order steps' error is part of the estimate"
     DriverParams<double> params;
     params.transient = true;
     params.elements = 32;
-    Driver<Settling<SpectralMeridian<double>, Vesicle<double>>> driver(settling<SpectralMeridian<double>>(0.6, 47.0, 0.05),
-                                                                      params);
+    Driver<Settling<SpectralMeridian<double>, Vesicle<double>>> driver(
+        settling<SpectralMeridian<double>>(0.6, 47.0, 0.05), params);
     const auto& result = driver.run();
     CHECK(driver.simulator().time() == 0.05);
     // The same with steps of fifth order.
@@ -87,8 +89,8 @@ TEST_CASE("To a given time the first-order steps' error is part of the estimate"
     exact.longest_time = 0.05;
     exact.step_tolerance = 1e-8;
     Settling<SpectralMeridian<double>, Vesicle<double>> reference(
-        driver.simulator().scene(), ExtrapolatedEulerOfOrder(5), settling<SpectralMeridian<double>>(0.6, 47.0)(32).shape(),
-        exact);
+        driver.simulator().scene(), ExtrapolatedEulerOfOrder(5),
+        settling<SpectralMeridian<double>>(0.6, 47.0)(32).shape(), exact);
     reference.run();
     const double error = std::abs(*result.velocity / reference.history().back().velocity - 1);
     CHECK(error > 1e-5);
@@ -112,7 +114,8 @@ TEST_CASE("A shape that its modes cannot carry gets more of them") {
     DriverParams<double> params;
     params.eps = 1e-3;
     params.unresolved = 2e-3;
-    Driver<Settling<SpectralMeridian<double>, Vesicle<double>>> driver(settling<SpectralMeridian<double>>(5.1, 1.0), params);
+    Driver<Settling<SpectralMeridian<double>, Vesicle<double>>> driver(settling<SpectralMeridian<double>>(5.1, 1.0),
+                                                                       params);
     const auto& result = driver.run();
     CHECK(result.stationary);
     CHECK(result.error_met());

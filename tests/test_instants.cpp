@@ -34,9 +34,11 @@ SimulationParams<double> until(double time, double dt) {
 template <class Kernel, class Wall>
 auto passing(int order, double dt, const Kernel& kernel, const Wall& wall) {
     return Simulator<Kernel, LinearElements<double>, Vesicle<double>, Poiseuille<double>, ExtrapolatedEulerOfOrder,
-                     DenseLU<double>, Wall>(
-        Scene(kernel, LinearElements<double>(), Vesicle<double>(), Poiseuille<double>(50, kRadius), DenseLU<double>(), wall),
-        ExtrapolatedEulerOfOrder(order), shape_in_tube<double>(1.5, kRadius, SpheroidKind::prolate, 32), until(0.012, dt));
+                     DenseLU<double>, Wall>(Scene(kernel, LinearElements<double>(), Vesicle<double>(),
+                                                  Poiseuille<double>(50, kRadius), DenseLU<double>(), wall),
+                                            ExtrapolatedEulerOfOrder(order),
+                                            shape_in_tube<double>(1.5, kRadius, SpheroidKind::prolate, 32),
+                                            until(0.012, dt));
 }
 
 WallMesh<StraightTube<double>> mesh() {
@@ -83,7 +85,8 @@ TEST_CASE("The history of the pressure drop does not depend on the order of the 
 TEST_CASE("A vesicle without excess area adds the pressure drop of a rigid sphere") {
     const auto shape = SpectralMeridian<double>().redistributed(sphere<double>(64), 32);
     const auto drop = [&](const auto& law) {
-        Scene scene(TubeKernel<double>(2), SpectralMeridian<double>(), law, Poiseuille<double>(10, 2), DenseLU<double>());
+        Scene scene(TubeKernel<double>(2), SpectralMeridian<double>(), law, Poiseuille<double>(10, 2),
+                    DenseLU<double>());
         return scene.evaluate(Configuration<double>{shape, 0.0, {}}, 0.0).pressure_drop;
     };
     CHECK(drop(Vesicle<double>()) == Approx(drop(RigidBody<double>())).epsilon(1e-4));
@@ -92,8 +95,8 @@ TEST_CASE("A vesicle without excess area adds the pressure drop of a rigid spher
 
 TEST_CASE("Along the wall the pressure falls by what the flow and the particle ask for") {
     const double radius = 2;
-    Scene scene(TubeKernel<double>(radius), SpectralMeridian<double>(), RigidBody<double>(), Poiseuille<double>(10, radius),
-                DenseLU<double>());
+    Scene scene(TubeKernel<double>(radius), SpectralMeridian<double>(), RigidBody<double>(),
+                Poiseuille<double>(10, radius), DenseLU<double>());
     const Configuration<double> sphere_here{SpectralMeridian<double>().redistributed(sphere<double>(64), 32), 0.0, {}};
     const auto instant = scene.evaluate(sphere_here, 0.0);
     const auto wall = wall_stress(scene, sphere_here, instant, 4 * radius);

@@ -10,9 +10,9 @@
 #include <axistokes/membrane/vesicle.hpp>
 #include <axistokes/simulator.hpp>
 #include <axistokes/solver/dense.hpp>
+#include <axistokes/stationary/stationary_solver.hpp>
 #include <axistokes/time/extrapolated_euler.hpp>
 #include <axistokes/time/semi_implicit_euler.hpp>
-#include <axistokes/stationary/stationary_solver.hpp>
 
 #include <cmath>
 

@@ -9,9 +9,9 @@
 #include <axistokes/membrane/vesicle.hpp>
 #include <axistokes/simulator.hpp>
 #include <axistokes/solver/dense.hpp>
-#include <axistokes/time/semi_implicit_euler.hpp>
 #include <axistokes/stationary/stationary_branch.hpp>
 #include <axistokes/stationary/stationary_solver.hpp>
+#include <axistokes/time/semi_implicit_euler.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -84,8 +84,8 @@ Motion motion(Wall& walls, const Meridian<double>& body, double load) {
     Vector<double> loads = Vector<double>::Zero(2 * n);
     loads.tail(n).setConstant(load);
     const auto solution = solve_rigid(surface, mobility, background, loads);
-    return {solution.velocity[n], load * surface.weight.sum(),
-            added_pressure_drop(surface, solution.force, unit_flow), solution.force};
+    return {solution.velocity[n], load * surface.weight.sum(), added_pressure_drop(surface, solution.force, unit_flow),
+            solution.force};
 }
 
 template <class Wall>

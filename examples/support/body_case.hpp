@@ -24,7 +24,7 @@ struct BodyCase {
     double tolerance;                                                    // of integrals and of the tube kernel
     Drive drive;
     Surroundings surroundings;
-    double mean_velocity = 0;  // of the undisturbed flow in a tube
+    double mean_velocity = 0;                                          // of the undisturbed flow in a tube
     std::function<nlohmann::ordered_json(const BodyMotion&)> details;  // further keys of the summary
     nlohmann::ordered_json parameters;
 };

@@ -49,7 +49,8 @@ int run_body_with(const BodyCase& c, const Kernel& kernel, const Wall& wall) {
         summary.update(tube_summary(driver.simulator(), ending, c.mean_velocity));
     }
     const auto& instant = *ending.result.instant;
-    summary.update(c.details({instant.surface.nodes, instant.surface.weight, instant.solution.force, instant.velocity}));
+    summary.update(
+        c.details({instant.surface.nodes, instant.surface.weight, instant.solution.force, instant.velocity}));
     summary["parameters"] = c.parameters;
     return conclude(driver.simulator(), ending, c.run, Frames(), summary);
 }

@@ -17,9 +17,11 @@ inline void MethodOptions::add_to(CLI::App& app, bool rigid) {
                                "(default: euler to a stationary state; adaptive where the way matters, and with\n"
                                "--preset-accuracy)") +
                        idle);
-    app.add_option("--stationary", stationary,
-                   std::string("auto: march in time until the branch is settled, then Newton's method; or march, to the end;\n"
-                               "or newton, after a few steps") + idle)
+    app.add_option(
+           "--stationary", stationary,
+           std::string("auto: march in time until the branch is settled, then Newton's method; or march, to the end;\n"
+                       "or newton, after a few steps") +
+               idle)
         ->capture_default_str();
     app.add_option("--preset-accuracy", preset,
                    "fast (1e-3), balanced (1e-6) or reference (1e-10): every tolerance and the number of elements" +
@@ -27,10 +29,9 @@ inline void MethodOptions::add_to(CLI::App& app, bool rigid) {
 }
 
 inline void RunOptions::add_to(CLI::App& app) {
-    add_number(
-        app, "--elements", elements,
-        "elements, or modes, on the meridian (default: as many as the accuracy takes, 1e-4 without "
-        "--preset-accuracy)");
+    add_number(app, "--elements", elements,
+               "elements, or modes, on the meridian (default: as many as the accuracy takes, 1e-4 without "
+               "--preset-accuracy)");
     add_number(app, "--tolerance", tolerance, "stationary when the residual is below this (default: 1e-5)");
     method.add_to(app);
     add_output_to(app);

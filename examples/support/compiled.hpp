@@ -68,9 +68,9 @@ template <class Discretization>
 using OpenScene = axistokes::Scene<OptionalTubeKernel, Discretization, axistokes::Vesicle<double>, Drive,
                                    axistokes::DenseLU<double>, axistokes::NoWall>;
 template <class Discretization>
-using MeshedScene = axistokes::Scene<axistokes::FreeSpaceKernel<double>, Discretization, axistokes::Vesicle<double>,
-                                     Drive, axistokes::DenseLU<double>,
-                                     axistokes::WallMesh<axistokes::StraightTube<double>>>;
+using MeshedScene =
+    axistokes::Scene<axistokes::FreeSpaceKernel<double>, Discretization, axistokes::Vesicle<double>, Drive,
+                     axistokes::DenseLU<double>, axistokes::WallMesh<axistokes::StraightTube<double>>>;
 
 extern template class Compiled<axistokes::LinearElements<double>>;
 extern template class Compiled<axistokes::SpectralMeridian<double>>;

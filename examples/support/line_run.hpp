@@ -68,7 +68,8 @@ class LineRun {
         ProgressBar bar;
         const double duration = run_.time.value_or(0);
         axistokes::Driver<Simulator, void> driver([&](axistokes::Index elements) { return simulator(elements); },
-                                                  run_.driver_params(), [&](const Simulator& s) {
+                                                  run_.driver_params(),
+                                                  [&](const Simulator& s) {
                                                       std::ostringstream text;
                                                       text << "step " << s.history().size() << "  time " << s.time();
                                                       bar.show(duration > 0 ? s.time() / duration : 1, text.str());
@@ -89,9 +90,8 @@ class LineRun {
   private:
     Simulator simulator(axistokes::Index elements) {
         const double share = case_.spheres ? 1 : run_.driver_params().unresolved;
-        const auto shape = run_.adapts()
-                               ? axistokes::resolved_nodes(discretization_, case_.initial, elements, share)
-                               : axistokes::nodes_of(discretization_, case_.initial, elements);
+        const auto shape = run_.adapts() ? axistokes::resolved_nodes(discretization_, case_.initial, elements, share)
+                                         : axistokes::nodes_of(discretization_, case_.initial, elements);
         std::vector<axistokes::Meridian<double>> shapes;
         for (axistokes::Index b = 0; b < case_.count; ++b) {
             const double place = (static_cast<double>(b) - static_cast<double>(case_.count - 1) / 2) * case_.distance;
@@ -104,10 +104,11 @@ class LineRun {
         const auto accuracy = run_.method.accuracy();
         const auto kernel = case_.surroundings.kernel(accuracy ? std::optional(accuracy->kernel) : std::nullopt);
         const auto params = run_.params();
-        Simulator simulator(typename Simulator::SceneType(kernel, discretization_,
-                                                          case_.spheres ? Law(sphere) : Law(axistokes::Vesicle<double>()),
-                                                          case_.drive, axistokes::DenseLU<double>()),
-                            run_.method.steps(params.step_tolerance), shapes, params);
+        Simulator simulator(
+            typename Simulator::SceneType(kernel, discretization_,
+                                          case_.spheres ? Law(sphere) : Law(axistokes::Vesicle<double>()), case_.drive,
+                                          axistokes::DenseLU<double>()),
+            run_.method.steps(params.step_tolerance), shapes, params);
         frames_ = LineFrames();
         kept_ = 0;
         visit(simulator, run_.time.value_or(0));
@@ -163,16 +164,16 @@ class LineRun {
             }
             bodies.push_back(std::move(body));
         }
-        nlohmann::ordered_json summary{{"bodies", bodies},
-                                       {"stationary", result.stationary},
-                                       {"time", simulator.time()},
-                                       {"steps", simulator.history().size()},
-                                       {"wall_seconds", seconds},
-                                       {"error_estimate", std::isfinite(result.error_estimate)
-                                                              ? nlohmann::ordered_json(result.error_estimate)
-                                                              : nlohmann::ordered_json(nullptr)},
-                                       {"error_met", result.error_met()},
-                                       {"accuracy", result.eps}};
+        nlohmann::ordered_json summary{
+            {"bodies", bodies},
+            {"stationary", result.stationary},
+            {"time", simulator.time()},
+            {"steps", simulator.history().size()},
+            {"wall_seconds", seconds},
+            {"error_estimate", std::isfinite(result.error_estimate) ? nlohmann::ordered_json(result.error_estimate)
+                                                                    : nlohmann::ordered_json(nullptr)},
+            {"error_met", result.error_met()},
+            {"accuracy", result.eps}};
         if (case_.surroundings.tube_radius && known) {
             summary["tube_radius"] = *case_.surroundings.tube_radius;
             summary["pressure_drop"] = drop;

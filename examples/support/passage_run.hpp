@@ -177,8 +177,9 @@ class PassageRun {
             return axistokes::spheroid_of_excess_area<double>(options_.excess_area, axistokes::SpheroidKind::prolate,
                                                               elements);
         };
-        return options_.elements ? axistokes::nodes_of(discretization_, spheroid, *options_.elements)
-                                 : axistokes::resolved_nodes(discretization_, spheroid, spectral ? 48 : 80, accuracy_.unresolved);
+        return options_.elements
+                   ? axistokes::nodes_of(discretization_, spheroid, *options_.elements)
+                   : axistokes::resolved_nodes(discretization_, spheroid, spectral ? 48 : 80, accuracy_.unresolved);
     }
 
     double time() const { return simulator_->history().empty() ? 0 : simulator_->history().back().time; }
@@ -234,9 +235,10 @@ class PassageRun {
         if constexpr (spectral) {
             const Meridian<double>& now = simulator_->configuration().shape;
             double share = discretization_.unresolved(now);
-            if (!options_.elements && now.elements() < axistokes::most_elements<Discretization> && share > accuracy_.unresolved) {
-                simulator_->refine(
-                    axistokes::more_modes(now.elements(), share, accuracy_.unresolved, axistokes::most_elements<Discretization>));
+            if (!options_.elements && now.elements() < axistokes::most_elements<Discretization> &&
+                share > accuracy_.unresolved) {
+                simulator_->refine(axistokes::more_modes(now.elements(), share, accuracy_.unresolved,
+                                                         axistokes::most_elements<Discretization>));
                 share = discretization_.unresolved(now);
             }
             unresolved_ = std::max(unresolved_, share);

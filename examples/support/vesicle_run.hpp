@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs a vesicle to its end, whatever that is: command line in, progress and files out; the rest is the library's Driver.
+// Runs a vesicle to its end, whatever that is: command line in, progress and files out; the rest is the library's
+// Driver.
 #pragma once
 
 #include "compiled.hpp"
@@ -23,9 +24,8 @@ template <class Discretization, class Kernel, class Wall>
 class VesicleRun {
     using Index = axistokes::Index;
     using Shape = axistokes::Meridian<double>;
-    using Simulator =
-        axistokes::Simulator<Kernel, Discretization, axistokes::Vesicle<double>, Drive,
-                             axistokes::ExtrapolatedEulerOfOrder, axistokes::DenseLU<double>, Wall>;
+    using Simulator = axistokes::Simulator<Kernel, Discretization, axistokes::Vesicle<double>, Drive,
+                                           axistokes::ExtrapolatedEulerOfOrder, axistokes::DenseLU<double>, Wall>;
     using Driver = axistokes::Driver<Simulator, CompiledSolver<typename Simulator::SceneType>>;
 
   public:

@@ -17,8 +17,8 @@ struct ExplicitMidpoint {
     }
 
   private:
-    /// All bodies displaced by dt v. A meridian is relative to its centroid, which moves with the velocity U, and so is the
-    /// velocity v of its nodes: x += dt v, z_c += dt U.
+    /// All bodies displaced by dt v. A meridian is relative to its centroid, which moves with the velocity U, and so is
+    /// the velocity v of its nodes: x += dt v, z_c += dt U.
     template <class S, class Instants>
     static std::vector<axistokes::Configuration<S>> moved(std::vector<axistokes::Configuration<S>> bodies,
                                                           const Instants& instants, const S& dt) {

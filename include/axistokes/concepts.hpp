@@ -45,16 +45,17 @@ concept GreenKernel = requires(const K& kernel, Point<typename K::Scalar> target
     { K::laboratory_frame } -> std::convertible_to<bool>;
     { kernel.singular(target, coordinate, coordinate, count, out) } -> std::same_as<void>;
     { kernel.singular_split(target, coordinate, coordinate, count, out, out) } -> std::same_as<void>;
-} && (!K::has_images || detail::KernelWithImages<K>);
+}
+&&(!K::has_images || detail::KernelWithImages<K>);
 
 /// DiscretizationFor<Kernel>: nodes on the meridian and the operators on them. `surface(meridian, parts)` gives the
-/// frozen geometry: nodal weights of Int dA, outward normals, and, if they are wanted, curvatures and the linear operators
-/// (Laplacian, divergence, tension force) as matrices of whatever type multiplies vectors. `single_layer(meridian,
-/// kernel)` is the matrix from nodal force densities, stacked [r; z], to nodal velocities; `single_layer_at` the same for
-/// targets off the surface.
-/// The curve between the nodes is the discretisation's too: `measures`, `max_radius`, `bending_energy` and
-/// `pole_curvatures` of it, points of it in `sampled(shape)`, `restore(shape, area, volume)` and `restore(shape, volume)`
-/// after a step, and `redistribute(shape)` when the nodes have drifted; the last three tell whether they did.
+/// frozen geometry: nodal weights of Int dA, outward normals, and, if they are wanted, curvatures and the linear
+/// operators (Laplacian, divergence, tension force) as matrices of whatever type multiplies vectors.
+/// `single_layer(meridian, kernel)` is the matrix from nodal force densities, stacked [r; z], to nodal velocities;
+/// `single_layer_at` the same for targets off the surface. The curve between the nodes is the discretisation's too:
+/// `measures`, `max_radius`, `bending_energy` and `pole_curvatures` of it, points of it in `sampled(shape)`,
+/// `restore(shape, area, volume)` and `restore(shape, volume)` after a step, and `redistribute(shape)` when the nodes
+/// have drifted; the last three tell whether they did.
 template <class D, class Kernel>
 concept DiscretizationFor = GreenKernel<Kernel> && std::same_as<typename D::Scalar, typename Kernel::Scalar> &&
     requires(const D& discretization, const Meridian<typename D::Scalar>& meridian, const Kernel& kernel) {
@@ -104,8 +105,9 @@ concept WallFor = requires(W& wall, const Discretization& discretization, const 
                            Matrix<typename Kernel::Scalar>& mobility, Vector<typename Kernel::Scalar>& background,
                            typename Kernel::Scalar z, Point<typename Kernel::Scalar> point) {
     { W::present } -> std::convertible_to<bool>;
-    { wall.confine(discretization, kernel, bodies, mobility, background) }
-    -> std::convertible_to<Vector<typename Kernel::Scalar>>;
+    {
+        wall.confine(discretization, kernel, bodies, mobility, background)
+        } -> std::convertible_to<Vector<typename Kernel::Scalar>>;
     { wall.gap(point) } -> std::convertible_to<typename Kernel::Scalar>;
     { wall.velocity_scale() } -> std::convertible_to<typename Kernel::Scalar>;
     { wall.centreline_velocity(z) } -> std::convertible_to<typename Kernel::Scalar>;

@@ -92,8 +92,8 @@ Meridian<S> shifted(Meridian<S> shape, const S& along) {
 
 /// Policies of a scene, and the laws of its bodies: one for all, or one for each. Every policy comes by value and is
 /// const afterwards, but for the solver and the wall, which may keep factors between solves.
-template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Law, Background Flow,
-          LinearSolver Solver, WallFor<Kernel, Discretization> Wall = NoWall>
+template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Law, Background Flow, LinearSolver Solver,
+          WallFor<Kernel, Discretization> Wall = NoWall>
 requires LawsFor<Law, typename Discretization::Surface>
 class Scene {
   public:
@@ -196,8 +196,8 @@ class Scene {
             instant.surface = frozen.bodies[b].surface;
             instant.shear_rate = frozen.bodies[b].shear_rate;
             instant.solution = std::move(solutions[b]);
-            const auto [velocity, deformation] = detail::relative_normal_velocity<Scalar>(
-                instant.surface, state[b].shape.z, instant.solution.velocity);
+            const auto [velocity, deformation] =
+                detail::relative_normal_velocity<Scalar>(instant.surface, state[b].shape.z, instant.solution.velocity);
             instant.velocity = velocity;
             instant.node_velocity = node_velocity(b, instant, bodies[b].slip, deformation);
             instant.deformation_rate = deforms(b) ? deformation.cwiseAbs().maxCoeff() : Scalar(0);
@@ -224,9 +224,7 @@ class Scene {
     }
 
     /// A typical velocity of what drives the scene.
-    Scalar velocity_scale() const {
-        return std::max<Scalar>(flow_.velocity_scale(), Scalar(wall_.velocity_scale()));
-    }
+    Scalar velocity_scale() const { return std::max<Scalar>(flow_.velocity_scale(), Scalar(wall_.velocity_scale())); }
 
     /// Undisturbed velocity at the nodes of one body, stacked, without a meshed wall's own flow.
     Vector<Scalar> background_velocity(const Configuration<Scalar>& configuration) const {
@@ -288,8 +286,9 @@ class Scene {
         for (const std::size_t other : {body - 1, body + 1}) {
             if (other < state.size()) {
                 const Scalar apart = state[other].position - state[body].position;
-                film.to_neighbour = std::min(
-                    film.to_neighbour, detail::least_distance(state[body].shape, detail::shifted(state[other].shape, apart)));
+                film.to_neighbour =
+                    std::min(film.to_neighbour,
+                             detail::least_distance(state[body].shape, detail::shifted(state[other].shape, apart)));
             }
         }
         return film;
@@ -350,10 +349,9 @@ class Scene {
         return v;
     }
 
-    /// Coordinates of the nodes in the frame of the evaluation: the body's own if it is alone and the kernel does not mind.
-    Scalar origin(const State& state) const {
-        return Kernel::laboratory_frame ? Scalar(0) : state.front().position;
-    }
+    /// Coordinates of the nodes in the frame of the evaluation: the body's own if it is alone and the kernel does not
+    /// mind.
+    Scalar origin(const State& state) const { return Kernel::laboratory_frame ? Scalar(0) : state.front().position; }
 
     Frozen frozen(const State& state) {
         Frozen frozen;
@@ -366,8 +364,8 @@ class Scene {
             local.push_back(detail::shifted(configuration.shape, Scalar(configuration.position - zero)));
             places.push_back(detail::shifted(configuration.shape, configuration.position));
             FrozenBody body;
-            body.surface = discretization_.surface(configuration.shape,
-                                                   deforms(b) ? SurfaceParts::all : SurfaceParts::metric);
+            body.surface =
+                discretization_.surface(configuration.shape, deforms(b) ? SurfaceParts::all : SurfaceParts::metric);
             body.load = normal_load(configuration, body.surface);
             frozen.bodies.push_back(std::move(body));
             size += 2 * configuration.shape.nodes();

@@ -49,9 +49,9 @@ struct StepRecord {
     S film_thickness_min = std::numeric_limits<S>::infinity();  // distance to the wall, along the curve
     S film_thickness_mean = std::numeric_limits<S>::infinity();
     S neighbour_distance = std::numeric_limits<S>::infinity();  // to the nearest other body
-    S step_error{};      // estimated, in R0; integrators with an estimate only
-    S pressure_drop{};   // added by the body, in kappa/R0^3; 0 without walls
-    Index rejected = 0;  // attempts with larger steps before this one
+    S step_error{};                                             // estimated, in R0; integrators with an estimate only
+    S pressure_drop{};                                          // added by the body, in kappa/R0^3; 0 without walls
+    Index rejected = 0;                                         // attempts with larger steps before this one
     bool redistributed = false;
 };
 
@@ -101,8 +101,8 @@ class Simulator {
     using Record = StepRecord<Scalar>;
     using Params = SimulationParams<Scalar>;
 
-    /// `shapes` are in the laboratory frame, in the order in which they lie along the axis. Throws InvalidArgument when a
-    /// shape is not a valid meridian, does not fit between the walls, or meets another one, or a parameter is out of
+    /// `shapes` are in the laboratory frame, in the order in which they lie along the axis. Throws InvalidArgument when
+    /// a shape is not a valid meridian, does not fit between the walls, or meets another one, or a parameter is out of
     /// range.
     Simulator(SceneType scene, Integrator integrator, const std::vector<Meridian<Scalar>>& shapes, Params params = {})
         : params_(params), scene_(std::move(scene)), integrator_(std::move(integrator)), control_(params) {
@@ -161,8 +161,8 @@ class Simulator {
     Scalar residual() const {
         Scalar largest = 0;
         for (const std::vector<Record>& history : histories_) {
-            largest = std::max(largest,
-                               history.empty() ? std::numeric_limits<Scalar>::infinity() : history.back().residual);
+            largest =
+                std::max(largest, history.empty() ? std::numeric_limits<Scalar>::infinity() : history.back().residual);
         }
         return largest;
     }
@@ -195,9 +195,8 @@ class Simulator {
         refined.shape = discretization.redistributed(refined.shape, elements);
         std::string cause = scene_.fault(refined);
         if (cause.empty() && scene_.deforms(body)) {
-            cause = conserved_[body].restore(discretization, refined.shape)
-                        ? scene_.fault(refined)
-                        : "area and volume could not be restored";
+            cause = conserved_[body].restore(discretization, refined.shape) ? scene_.fault(refined)
+                                                                            : "area and volume could not be restored";
         }
         if (!cause.empty()) {
             fail(std::to_string(elements) + " elements cannot carry the shape: " + cause);
@@ -370,8 +369,8 @@ class Simulator {
                                       body.surface.normal_z[i] * attempt.motion[begin + n + i];
                 report.displacement = abs(normal) <= report.displacement ? report.displacement : Scalar(abs(normal));
             }
-            report.shear_rate = std::max({report.shear_rate, body.shear_rate,
-                                          Scalar(abs(moment_.instants[b].velocity) / (2 * films_[b].min))});
+            report.shear_rate = std::max(
+                {report.shear_rate, body.shear_rate, Scalar(abs(moment_.instants[b].velocity) / (2 * films_[b].min))});
             begin += 2 * n;
         }
         report.reversed = motion_.size() == attempt.motion.size() && attempt.motion.dot(motion_) < Scalar(0);
@@ -394,7 +393,8 @@ class Simulator {
                 record.redistributed = discretization.redistribute(next.shape);
                 if (record.redistributed && !kept.restore(discretization, next.shape)) {
                     throw SimulationFailure(
-                        "area and volume could not be restored after the nodes were moved along the membrane, for which " +
+                        "area and volume could not be restored after the nodes were moved along the membrane, for "
+                        "which " +
                         std::to_string(next.shape.nodes()) + " of them are too few");
                 }
                 require_usable(next);
@@ -422,9 +422,10 @@ class Simulator {
             if (std::isinf(static_cast<double>(before)) || after > before / 2) {
                 return;
             }
-            throw SimulationFailure(after > Scalar(0) ? "the distance to the " + std::string(of) + " would shrink from " +
-                                                            detail::text(before) + " to " + detail::text(after)
-                                                      : std::string(contact));
+            throw SimulationFailure(after > Scalar(0)
+                                        ? "the distance to the " + std::string(of) + " would shrink from " +
+                                              detail::text(before) + " to " + detail::text(after)
+                                        : std::string(contact));
         };
         guard(films_[b].min, film.min, "wall", "the membrane would cross the wall");
         if (b > 0 && meet(next[b - 1], next[b])) {

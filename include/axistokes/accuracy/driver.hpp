@@ -71,7 +71,8 @@ class Driver {
     /// Called after every step; false stops the run.
     using Observer = std::function<bool(const Simulator&)>;
 
-    Driver(Make make, Params params, Observer observer = [](const Simulator&) { return true; })
+    Driver(
+        Make make, Params params, Observer observer = [](const Simulator&) { return true; })
         : make_(std::move(make)), params_(std::move(params)), observe_(std::move(observer)) {
         result_.eps = params_.eps;
         restart(params_.elements.value_or(params_.first_elements.value_or(first_elements<Discretization>)));
@@ -220,8 +221,8 @@ class Driver {
         take();
     }
 
-    /// Velocity and force of a rigid body. Its shape may be simple and its traction is not: two results tell the error of
-    /// the coarser one, or, of second order, that of the finer.
+    /// Velocity and force of a rigid body. Its shape may be simple and its traction is not: two results tell the error
+    /// of the coarser one, or, of second order, that of the finer.
     void solve_rigid() {
         constexpr Index most_of_rigid = 2 * most;
         march_on();
@@ -229,7 +230,8 @@ class Driver {
         if (!adapts()) {
             Simulator coarse = make_(std::max(minimum_elements, (2 * elements()) / 3));
             coarse.step();
-            result_.error_estimate = rigid_error(velocity_and_force(coarse), now, coarse.configuration().shape.elements());
+            result_.error_estimate =
+                rigid_error(velocity_and_force(coarse), now, coarse.configuration().shape.elements());
         }
         while (adapts() && !(result_.error_estimate <= params_.eps) && elements() < most_of_rigid && !stopped_) {
             const Index before = elements();
@@ -300,13 +302,15 @@ class Driver {
         }
         const S scale = std::max(S(1), simulator_->scene().velocity_scale());
         for (std::size_t i = 1; i < history.size(); ++i) {
-            sum += history[i].dt / 2 * (scale * abs(history[i].residual - history[i - 1].residual) +
-                                        abs(history[i].velocity - history[i - 1].velocity));
+            sum += history[i].dt / 2 *
+                   (scale * abs(history[i].residual - history[i - 1].residual) +
+                    abs(history[i].velocity - history[i - 1].velocity));
         }
         return sum / S(length(simulator_->configuration()));
     }
 
-    /// P1: from the difference to a run with three quarters of the elements; half of them may not be in the range of second order.
+    /// P1: from the difference to a run with three quarters of the elements; half of them may not be in the range of
+    /// second order.
     void estimate_from_coarser() {
         const MeasuredState fine = measured(*simulator_);
         const Index fewer = std::max(minimum_elements, (3 * fine.elements) / 4);
@@ -362,7 +366,8 @@ class Driver {
         }
     }
 
-    /// Marches until Newton's method converges on the branch that the march has settled on; to the end if it never does.
+    /// Marches until Newton's method converges on the branch that the march has settled on; to the end if it never
+    /// does.
     ///
     /// A residual of 1e-2 (of the flow's velocity) may still be on the way from one branch to another, and in a strong
     /// flow it is small from the start: a solution far from the marched shape is not taken before the march has come
@@ -440,8 +445,9 @@ class Driver {
                 if (last) {
                     return;
                 }
-                const Index next = spectral ? more_modes(now.elements(), 2 * double(error), double(params_.unresolved), most)
-                                            : more_elements(now.elements(), double(error), double(params_.eps), most);
+                const Index next = spectral
+                                       ? more_modes(now.elements(), 2 * double(error), double(params_.unresolved), most)
+                                       : more_elements(now.elements(), double(error), double(params_.eps), most);
                 try {
                     auto finer = solver.solve(discretization().redistributed(now, next), area, volume);
                     result_.newton_iterations += finer.iterations;
@@ -468,7 +474,8 @@ class Driver {
     S coarse_difference(Newton& solver, const State& fine, const S& area, const S& volume) {
         const Index fewer = std::max(minimum_elements, (3 * fine.configuration.shape.elements()) / 4);
         try {
-            const auto coarse = solver.solve(discretization().redistributed(fine.configuration.shape, fewer), area, volume);
+            const auto coarse =
+                solver.solve(discretization().redistributed(fine.configuration.shape, fewer), area, volume);
             return S(second_order_error(measured_state(coarse), measured_state(fine)));
         } catch (const SimulationFailure&) {
             return std::numeric_limits<S>::infinity();

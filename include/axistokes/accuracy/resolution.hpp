@@ -13,7 +13,8 @@
 
 namespace axistokes {
 
-/// A discretisation that tells from one shape whether it is resolved: `unresolved(shape)` is the share of the last modes.
+/// A discretisation that tells from one shape whether it is resolved: `unresolved(shape)` is the share of the last
+/// modes.
 template <class Discretization>
 concept JudgesItself = requires(const Discretization& d, const Meridian<typename Discretization::Scalar>& shape) {
     { d.unresolved(shape) } -> std::convertible_to<typename Discretization::Scalar>;
@@ -39,8 +40,8 @@ inline Index more_elements(Index elements, double error, double wanted, Index mo
     return std::min(static_cast<Index>(std::ceil(std::clamp(needed, 1.3 * n, 2 * n))), most);
 }
 
-/// `elements` elements on the curve that `shape(count)` gives any number of nodes on. A series wants its nodes spaced by
-/// itself: the initial shapes' spacing has kinks that it would have to resolve.
+/// `elements` elements on the curve that `shape(count)` gives any number of nodes on. A series wants its nodes spaced
+/// by itself: the initial shapes' spacing has kinks that it would have to resolve.
 template <class Discretization, class Shape>
 Meridian<typename Discretization::Scalar> nodes_of(const Discretization& discretization, const Shape& shape,
                                                    Index elements) {

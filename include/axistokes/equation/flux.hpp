@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The single layer's null space: a uniform pressure moves nothing, and no force creates a flux through a closed surface.
+// The single layer's null space: a uniform pressure moves nothing, and no force creates a flux through a closed
+// surface.
 #pragma once
 
 #include "../core.hpp"
@@ -14,8 +15,8 @@ Vector<S> without_flux(const Surface& surface, const Vector<S>& field) {
     return field - (surface.flux(field) / surface.flux(n)) * n;
 }
 
-/// Rows, first or also columns, of a body whose nodes start at `begin` (two for each node, r and z stacked): removes the
-/// mean normal force from what `mobility` is applied to.
+/// Rows, first or also columns, of a body whose nodes start at `begin` (two for each node, r and z stacked): removes
+/// the mean normal force from what `mobility` is applied to.
 template <class S, class Surface>
 void ignore_pressure(const Surface& surface, Index begin, Matrix<S>& mobility) {
     const Vector<S> n = surface.normals();

@@ -49,10 +49,10 @@ struct EquationBody {
     Vector<S> slip{};
 };
 
-/// Resistance of a sphere, which has no area to spare: its tension grows without bound against any deformation, although
-/// div_s u = 0 alone admits deformations to first order. The limit is a resistance to the rate of change of the
-/// curvature, large against the viscous one of the fluid (which is 1 in these units) and small enough for the type to
-/// resolve both.
+/// Resistance of a sphere, which has no area to spare: its tension grows without bound against any deformation,
+/// although div_s u = 0 alone admits deformations to first order. The limit is a resistance to the rate of change of
+/// the curvature, large against the viscous one of the fluid (which is 1 in these units) and small enough for the type
+/// to resolve both.
 template <class S>
 S saturated_resistance() {
     using std::sqrt;
@@ -294,7 +294,8 @@ class MotionEquation {
             return s;
         }
         if constexpr (Kinds::any_deformable) {
-            s.velocity = p.velocity != none ? Vector<S>(y.segment(p.velocity, n)) : Vector<S>(velocity.segment(p.begin, n));
+            s.velocity =
+                p.velocity != none ? Vector<S>(y.segment(p.velocity, n)) : Vector<S>(velocity.segment(p.begin, n));
             s.elastic = p.elastic;
             s.force = p.given_force;
             if (p.velocity != none) {

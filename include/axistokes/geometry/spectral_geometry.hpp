@@ -170,8 +170,8 @@ class SpectralGeometry {
         return false;
     }
 
-    /// Gives the shape its volume again, if its area may change, by a displacement of all nodes by the same distance along
-    /// the normal; false if that fails.
+    /// Gives the shape its volume again, if its area may change, by a displacement of all nodes by the same distance
+    /// along the normal; false if that fails.
     bool restore(Meridian<S>& shape, const S& volume) const {
         using std::abs;
         for (int iteration = 0; iteration < 8; ++iteration) {

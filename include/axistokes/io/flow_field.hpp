@@ -75,8 +75,9 @@ Index node_at(const Meridian<S>& meridian, const Point<S>& x) {
 
 }  // namespace detail
 
-/// The velocity u = u_inf + G f of the fluid around the one body of a scene, with the flow of a meshed wall, as a function of
-/// points off the body, z relative to the centroid: stacked, in the laboratory frame. `reach`: the largest |z| of a point.
+/// The velocity u = u_inf + G f of the fluid around the one body of a scene, with the flow of a meshed wall, as a
+/// function of points off the body, z relative to the centroid: stacked, in the laboratory frame. `reach`: the largest
+/// |z| of a point.
 template <class SceneType, class S, class Surface>
 auto fluid_velocity(const SceneType& scene, const Configuration<S>& configuration, const Instant<S, Surface>& instant,
                     const S& reach) {
@@ -96,8 +97,8 @@ auto fluid_velocity(const SceneType& scene, const Configuration<S>& configuratio
         } else {
             const S z = std::remove_cvref_t<decltype(scene.kernel())>::laboratory_frame ? configuration.position : S(0);
             return [&scene, shape = detail::shifted(configuration.shape, z), force, z](const Meridian<S>& points) {
-                return Vector<S>(scene.discretization().single_layer_at(detail::shifted(points, z), shape, scene.kernel()) *
-                                 force);
+                return Vector<S>(
+                    scene.discretization().single_layer_at(detail::shifted(points, z), shape, scene.kernel()) * force);
             };
         }
     }();
@@ -115,8 +116,8 @@ auto fluid_velocity(const SceneType& scene, const Configuration<S>& configuratio
     };
 }
 
-/// The velocity at the grid's nodes; 0 beyond the wall. In a tube the grid ends there. Throws InvalidArgument when the grid
-/// is not positive, finite and of at least 2 x 2 nodes.
+/// The velocity at the grid's nodes; 0 beyond the wall. In a tube the grid ends there. Throws InvalidArgument when the
+/// grid is not positive, finite and of at least 2 x 2 nodes.
 template <class SceneType, class S, class Surface>
 FlowField<S> flow_field(const SceneType& scene, const Configuration<S>& configuration,
                         const Instant<S, Surface>& instant, FlowGrid<S> grid = {}) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Shear stress and pressure along the wall of a straight tube.
 //
-// At a distance d from the wall, where u = 0, u_z = a_1 d + a_2 d^2 + ...: the fluid pulls at the wall with the shear stress
-// eta a_1 along z, and Stokes' equation there, where u_z does not change along z, gives dp/dz = eta (2 a_2 - a_1/Rc).
+// At a distance d from the wall, where u = 0, u_z = a_1 d + a_2 d^2 + ...: the fluid pulls at the wall with the shear
+// stress eta a_1 along z, and Stokes' equation there, where u_z does not change along z, gives dp/dz = eta (2 a_2 -
+// a_1/Rc).
 #pragma once
 
 #include "flow_field.hpp"

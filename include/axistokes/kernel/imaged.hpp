@@ -98,8 +98,8 @@ class ImagedKernel {
     /// Distance of a point from the wall, < 0 beyond it; its image is twice as far. Infinite without a wall.
     S gap(const Point<S>& x) const { return images_.gap(x); }
 
-    /// The wall's part M_c(target, source), for probing: a batch may be much faster per pair. Throws InvalidArgument for
-    /// points outside.
+    /// The wall's part M_c(target, source), for probing: a batch may be much faster per pair. Throws InvalidArgument
+    /// for points outside.
     KernelBlock<S> correction(const Point<S>& target, const Point<S>& source) const {
         return images_.correction(target, source);
     }
@@ -162,8 +162,7 @@ class ImagedKernel {
     }
 
     /// The undisturbed flow of flow rate 1 along the tube.
-    Point<S> unit_flow(const Point<S>& x) const
-        requires(requires(const Images& images) { images.unit_flow(x); }) {
+    Point<S> unit_flow(const Point<S>& x) const requires(requires(const Images& images) { images.unit_flow(x); }) {
         return images_.unit_flow(x);
     }
 

@@ -155,8 +155,7 @@ class TubeFilonKernel : public ImagedKernel<S, TubeFilonImages<S>> {
     /// Throws InvalidArgument as TubeFilonImages does.
     explicit TubeFilonKernel(S tube_radius, Params params = {}, Index most_points = 1 << 17)
         : TubeFilonKernel(TubeFilonImages<S>(tube_radius, params, most_points)) {}
-    explicit TubeFilonKernel(TubeFilonImages<S> images)
-        : ImagedKernel<S, TubeFilonImages<S>>(std::move(images)) {}
+    explicit TubeFilonKernel(TubeFilonImages<S> images) : ImagedKernel<S, TubeFilonImages<S>>(std::move(images)) {}
 
     const S& tube_radius() const { return this->images().radius(); }
     const Params& params() const { return this->images().params(); }

@@ -23,12 +23,14 @@ concept NamedConstraint = requires {
 };
 
 template <class L>
-concept RigidLaw = NamedConstraint<L> && L::constraint == Constraint::rigid &&
-    requires(const L& law) { law.velocity.has_value(); };
+concept RigidLaw = NamedConstraint<L> && L::constraint == Constraint::rigid&& requires(const L& law) {
+    law.velocity.has_value();
+};
 
 template <class L, class Surface>
-concept DeformableLaw = NamedConstraint<L> && L::constraint != Constraint::rigid &&
-    requires(const L& law, const Surface& surface, const Vector<typename L::Scalar>& tension) {
+concept DeformableLaw = NamedConstraint<L> &&
+                        L::constraint != Constraint::rigid&& requires(const L& law, const Surface& surface,
+                                                                      const Vector<typename L::Scalar>& tension) {
     { L::conserves_area } -> std::convertible_to<bool>;
     { law.force(surface) } -> std::convertible_to<Vector<typename L::Scalar>>;
     { law.linearisation(surface, tension) } -> std::convertible_to<typename Surface::Operator>;
@@ -42,11 +44,12 @@ concept DeformableLaw = NamedConstraint<L> && L::constraint != Constraint::rigid
 /// optional one it is given; without, its traction balances the background's load. Any other law has
 /// - `force(surface)`, stacked [r; z]: its force density on the fluid at the nodes of `surface`, in kappa/R0^3, without
 ///   the background's load and without the tension that keeps an inextensible interface's area;
-/// - `linearisation(surface, tension)`, an operator displacements -> change of that force, with which semi-implicit steps
+/// - `linearisation(surface, tension)`, an operator displacements -> change of that force, with which semi-implicit
+/// steps
 ///   are stable; it need not be exact. `tension` is the constraint's, of the previous step, or empty;
 /// - `conserves_area`: whether the interface's area is a constant of the motion. Its volume always is.
 template <class L, class Surface>
-concept LawFor = detail::NamedConstraint<L> && (detail::RigidLaw<L> || detail::DeformableLaw<L, Surface>);
+concept LawFor = detail::NamedConstraint<L> &&(detail::RigidLaw<L> || detail::DeformableLaw<L, Surface>);
 
 /// A body of one of several kinds, chosen at run time: a scene of OneOf<Vesicle<>, RigidBody<>> holds both.
 template <class... Laws>
@@ -89,7 +92,8 @@ bool is_rigid(const L& law) {
         law, [](const auto& kind) { return std::decay_t<decltype(kind)>::constraint == Constraint::rigid; });
 }
 
-/// Whether an interface's nodes follow it along itself. Without a constraint they need not: they move along the normals.
+/// Whether an interface's nodes follow it along itself. Without a constraint they need not: they move along the
+/// normals.
 template <class L>
 bool nodes_follow(const L& law) {
     return LawKinds<L>::visit(
@@ -129,6 +133,6 @@ struct LawsFit<OneOf<Laws...>, Surface> : std::bool_constant<(LawFor<Laws, Surfa
 
 /// A law that fits, or OneOf several that do.
 template <class L, class Surface>
-concept LawsFor = LawFor<L, Surface> || (!detail::NamedConstraint<L> && detail::LawsFit<L, Surface>::value);
+concept LawsFor = LawFor<L, Surface> ||(!detail::NamedConstraint<L> && detail::LawsFit<L, Surface>::value);
 
 }  // namespace axistokes

@@ -120,8 +120,9 @@ requires(SceneType::deformable) class StationaryBranch {
 
     Scalar growth(const Point& point, const Matrix<Scalar>& derivative) const {
         const Index n = point.state.velocity.size();
-        return detail::growth_rates<Scalar>(point.state.frozen.bodies.front().surface, point.state.configuration.shape.z,
-                                            derivative.topLeftCorner(n, n), keeps_area(point))
+        return detail::growth_rates<Scalar>(point.state.frozen.bodies.front().surface,
+                                            point.state.configuration.shape.z, derivative.topLeftCorner(n, n),
+                                            keeps_area(point))
             .front()
             .real();
     }

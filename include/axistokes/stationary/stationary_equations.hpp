@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The equations of a stationary state, w = 0 with volume, axial position and, if the law keeps it, area given, and their
-// linearisation
-// (docs/stationary.md).
+// The equations of a stationary state, w = 0 with volume, axial position and, if the law keeps it, area given, and
+// their linearisation (docs/stationary.md).
 #pragma once
 
 #include "../geometry/conserved.hpp"
@@ -60,8 +59,8 @@ bool settle(const SceneType& scene, Configuration<S>& configuration, const Conse
     return true;
 }
 
-/// Rows: the change of volume, of the centroid and, if the law keeps it, of the area by a normal displacement phi (phi, z
-/// phi and 2 H phi integrated). Columns: the displacements n, the translation and H n that correct them.
+/// Rows: the change of volume, of the centroid and, if the law keeps it, of the area by a normal displacement phi (phi,
+/// z phi and 2 H phi integrated). Columns: the displacements n, the translation and H n that correct them.
 template <class S, class Surface>
 std::pair<Matrix<S>, Matrix<S>> constraints(const Surface& surface, const Vector<S>& z, bool keeps_area) {
     const Index n = surface.size();

@@ -197,7 +197,8 @@ requires(SceneType::deformable) class StationarySolver {
             ++state.jacobians;
             if (params_.only_stable) {
                 const auto& z = point.configuration.shape.z;
-                state.growth = detail::growth_rates<Scalar>(surface_of(point), z, jacobian, keeps_area()).front().real();
+                state.growth =
+                    detail::growth_rates<Scalar>(surface_of(point), z, jacobian, keeps_area()).front().real();
                 growth = std::max(Scalar(0), state.growth);
             }
         };

@@ -113,9 +113,9 @@ class MobilityChange {
     Matrix<S> change_;
 };
 
-/// d(normal velocity relative to the centroid)/d(normal displacement) of u = u_inf + G (F + load + T gamma), D u = 0, or
-/// without T and D for a law without that constraint. The derivatives of F, T, D, of the load, of u_inf and of the normals
-/// are one-sided differences, without assemblies; that of G comes in `mobility_change`, 2n x n.
+/// d(normal velocity relative to the centroid)/d(normal displacement) of u = u_inf + G (F + load + T gamma), D u = 0,
+/// or without T and D for a law without that constraint. The derivatives of F, T, D, of the load, of u_inf and of the
+/// normals are one-sided differences, without assemblies; that of G comes in `mobility_change`, 2n x n.
 template <class SceneType>
 Matrix<typename SceneType::Scalar> velocity_jacobian(const SceneType& scene, const typename SceneType::Frozen& frozen,
                                                      const Configuration<typename SceneType::Scalar>& configuration,

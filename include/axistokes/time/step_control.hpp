@@ -42,9 +42,9 @@ class StepRejected : public SimulationFailure {
 };
 
 /// StepControl: `step()` is the step to try next. `judge(report)` throws StepRejected when an attempt was too long,
-/// `shorten(factor)` plans a shorter one, or returns false if there is none, and `accept(report, planned, retried)` plans the
-/// next; `planned` is the step before it was cut short to end at a given time. `fixed()` tells whether steps are never
-/// changed.
+/// `shorten(factor)` plans a shorter one, or returns false if there is none, and `accept(report, planned, retried)`
+/// plans the next; `planned` is the step before it was cut short to end at a given time. `fixed()` tells whether steps
+/// are never changed.
 template <class C, class S>
 concept StepControlFor = requires(C& control, const C& constant, const StepReport<S>& report, S dt) {
     { constant.step() } -> std::convertible_to<S>;
@@ -101,7 +101,8 @@ class StepControl {
     using Report = StepReport<S>;
 
     /// Throws InvalidArgument when a parameter is out of range.
-    explicit StepControl(const Params& params) : params_(params), dt_(params.time_step.value_or(params.first_time_step)) {
+    explicit StepControl(const Params& params)
+        : params_(params), dt_(params.time_step.value_or(params.first_time_step)) {
         detail::validate_steps(params);
     }
 

@@ -104,9 +104,9 @@ class WallMesh {
     /// The flow with a given force density on a particle, for evaluation anywhere in the channel.
     template <class Discretization, class Kernel>
     requires(!Kernel::has_images) ChannelField<Discretization, Kernel> field(const Discretization& discretization,
-                                                                                  const Kernel& kernel,
-                                                                                  const Meridian<Scalar>& particle,
-                                                                                  const Vector<Scalar>& force) {
+                                                                             const Kernel& kernel,
+                                                                             const Meridian<Scalar>& particle,
+                                                                             const Vector<Scalar>& force) {
         const Meridian<Scalar> local = prepare(kernel, particle);
         const Matrix<Scalar> to_wall = discretization.single_layer_at(mesh_->curve().nodes(), local, kernel);
         const Vector<Scalar> traction = params_.flow_rate * unit_traction_ - lu_.solve(to_wall * force);
