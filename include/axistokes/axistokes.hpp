@@ -3,6 +3,7 @@
 #pragma once
 
 #include "accuracy.hpp"
+#include "accuracy/driver.hpp"
 #include "discretization/linear_elements.hpp"
 #include "discretization/spectral_meridian.hpp"
 #include "flow/background.hpp"
@@ -10,6 +11,7 @@
 #include "io/csv.hpp"
 #include "io/vtk.hpp"
 #include "kernel/free_space.hpp"
+#include "kernel/imaged.hpp"
 #include "kernel/tube.hpp"
 #include "kernel/tube_filon.hpp"
 #include "membrane/rigid_body.hpp"

@@ -4,7 +4,7 @@
 
 #include "geometry/conserved.hpp"
 #include "scene.hpp"
-#include "time/step_control.hpp"
+#include "step_control.hpp"
 
 #include <algorithm>
 #include <cmath>

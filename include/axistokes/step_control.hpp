@@ -3,7 +3,7 @@
 // moves.
 #pragma once
 
-#include "../core.hpp"
+#include "core.hpp"
 
 #include <algorithm>
 #include <cmath>
