@@ -40,6 +40,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -108,6 +110,12 @@ class LayerAssembly {
             lengths_.push_back(basis.length(p, basis.begin(p), first, basis.end(p), ends_.back()));
         }
         to_end_.resize(ends_.size());
+        using std::abs;
+        S extent = 0;
+        for (const Point<S>& x : ends_) {
+            extent = std::max<S>(extent, abs(x.r) + abs(x.z));
+        }
+        resolution_ = 32 * std::numeric_limits<S>::epsilon() * extent;
     }
 
     /// 2 targets x 2 nodes, stacked [r; z]. `at_nodes`: the targets are the nodes.
@@ -218,11 +226,15 @@ class LayerAssembly {
         return false;
     }
 
-    /// The part of a panel from x1 to x2, at the distances d1 and d2 from the target.
+    /// The part of a panel from x1 to x2, at the distances d1 and d2 from the target. Next to a target on the curve a
+    /// part as short as round-off is left out: the integral over it is no larger, but its points may be the target.
     void add_part(Index p, const S& begin, const Point<S>& x1, const S& d1, const S& end, const Point<S>& x2,
                   const S& d2, int depth) {
         const Index n = order_on_part(S(d1 + d2), basis_.length(p, begin, x1, end, x2));
-        if (n == 0 && depth < deepest_halving) {
+        if (n == 0) {
+            if (depth == deepest_halving || d1 + d2 < resolution_) {
+                return;
+            }
             const S middle = (begin + end) / 2;
             const Point<S> x = basis_.position(p, middle);
             const S d = distance(target_, x);
@@ -230,7 +242,7 @@ class LayerAssembly {
             add_part(p, middle, x, d, end, x2, d2, depth + 1);
             return;
         }
-        near_.add(p, begin, end, basis_.rules()[n == 0 ? basis_.most_order() : n]);
+        near_.add(p, begin, end, basis_.rules()[n]);
     }
 
     /// 0 if the part must be halved.
@@ -374,6 +386,7 @@ class LayerAssembly {
     std::vector<Point<S>> ends_;
     std::vector<std::size_t> first_;  // which of them a panel begins with; the next one is its other end
     std::vector<S> lengths_;          // of the panels
+    S resolution_{};
 
     // Of the present target.
     Point<S> target_;

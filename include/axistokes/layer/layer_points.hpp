@@ -38,10 +38,14 @@ struct LayerPoints {
     void add(Index p, const S& begin, const S& end, const GaussLegendreRule<S>& rule) {
         const S width = end - begin;
         const S length = width < S(0) ? S(-width) : width;
-        for (Index q = 0; q < rule.nodes.size(); ++q) {
-            panel.push_back(p);
-            t.push_back(begin + width * rule.nodes[q]);
-            weight.push_back(length * rule.weights[q]);
+        const std::size_t old = t.size();
+        const auto n = static_cast<std::size_t>(rule.nodes.size());
+        panel.resize(old + n, p);
+        t.resize(old + n);
+        weight.resize(old + n);
+        for (std::size_t q = 0; q < n; ++q) {
+            t[old + q] = begin + width * rule.nodes.data()[q];
+            weight[old + q] = length * rule.weights.data()[q];
         }
     }
 };
@@ -77,26 +81,24 @@ class LocalShares {
         const Index nodes = to.rows() / 2;
         const S* weight = points.weight.data();
         const Index* panel = points.panel.data();
-        for (Index c = 0; c < entries.cols(); ++c) {
-            const S* from_r = entries.data() + c * entries.rows();
-            const S* from_z = from_r + count;
-            S* to_r = to.data() + c * to.outerStride();
-            S* to_z = to_r + nodes;
-            if (points.shares.empty()) {
-                for (Index q = 0; q < count; ++q) {
-                    to_r[q] += weight[q] * from_r[q];
-                    to_z[q] += weight[q] * from_z[q];
-                }
-                continue;
-            }
+        for (Index c = 0; c < entries.cols(); c += 2) {
+            const S* from = entries.data() + c * entries.rows();
+            S* u_r = to.data() + c * to.outerStride();
+            S* u_z = u_r + to.outerStride();
+            const auto add = [&](Index q, Index node, const S& share) {
+                u_r[node] += share * from[q];
+                u_r[nodes + node] += share * from[count + q];
+                u_z[node] += share * from[2 * count + q];
+                u_z[nodes + node] += share * from[3 * count + q];
+            };
             const S* share = points.shares.data();
             for (Index q = 0; q < count; ++q) {
-                const Index first = panel[q] * stride_;
-                const S r = weight[q] * from_r[q];
-                const S z = weight[q] * from_z[q];
+                if (points.shares.empty()) {
+                    add(q, q, weight[q]);
+                    continue;
+                }
                 for (Index k = 0; k < width(); ++k, ++share) {
-                    to_r[first + k] += *share * r;
-                    to_z[first + k] += *share * z;
+                    add(q, panel[q] * stride_ + k, weight[q] * *share);
                 }
             }
         }
