@@ -5,6 +5,7 @@
 #include <axistokes/discretization/linear_elements.hpp>
 #include <axistokes/discretization/spectral_meridian.hpp>
 #include <axistokes/kernel/free_space.hpp>
+#include <axistokes/kernel/tube.hpp>
 #include <axistokes/wall/panel_curve.hpp>
 
 #include <cmath>
@@ -93,4 +94,17 @@ TEST_CASE("Double layer of a translation: P1 elements", "[double layer]") {
     const double fine = deviation(elements.double_layer(spheroid.meridian(64), kernel), 0.5);
     INFO(coarse << " " << fine);
     CHECK(fine < 1e-4);
+}
+
+TEST_CASE("Double layer of a translation: in a tube", "[double layer]") {
+    // The images add nothing to a closed surface's identity, but only if they are those of the stress.
+    const axistokes::TubeKernel<double> tube(1.1);
+    const Meridian<double> m = Spheroid{0.7, 1.2}.meridian(16);
+    const SpectralMeridian<double> series;
+    const double images = (series.double_layer(m, tube) - series.double_layer(m, kernel)).cwiseAbs().maxCoeff();
+    CHECK(images > 1e-3);
+    CHECK(deviation(series.double_layer(m, tube), 0.5) < 1e-6);
+    CHECK(deviation(series.double_layer_at(scaled(m, 0.8), m, tube), 1) < 1e-6);
+    const LinearElements<double> elements;
+    CHECK(deviation(elements.double_layer_at(scaled(m, 0.8), m, tube), 1) < 1e-5);
 }

@@ -364,16 +364,30 @@ class Simulator {
             attempt.motion.segment(begin, n) = next[b].shape.r - before.r;
             attempt.motion.segment(begin + n, n) = next[b].shape.z - before.z;
             const auto& body = moment_.frozen.bodies[b];
+            if (!scene_.deforms(b)) {
+                // Its displacement relative to the centroid is rounding.
+                attempt.motion.segment(begin, 2 * n).setZero();
+            }
             for (Index i = 0; i < n && scene_.deforms(b); ++i) {
                 const Scalar normal = body.surface.normal_r[i] * attempt.motion[begin + i] +
                                       body.surface.normal_z[i] * attempt.motion[begin + n + i];
                 report.displacement = abs(normal) <= report.displacement ? report.displacement : Scalar(abs(normal));
             }
-            report.shear_rate = std::max(
-                {report.shear_rate, body.shear_rate, Scalar(abs(moment_.instants[b].velocity) / (2 * films_[b].min))});
+            report.shear_rate =
+                std::max<Scalar>({report.shear_rate, body.shear_rate,
+                                  Scalar(abs(moment_.instants[b].velocity) / (2 * films_[b].min)), closing_rate(b)});
             begin += 2 * n;
         }
         report.reversed = motion_.size() == attempt.motion.size() && attempt.motion.dot(motion_) < Scalar(0);
+    }
+
+    /// Relative velocity of a body and the next one over their distance.
+    Scalar closing_rate(std::size_t b) const {
+        using std::abs;
+        const auto& instants = moment_.instants;
+        return b + 1 < instants.size()
+                   ? Scalar(abs(instants[b + 1].velocity - instants[b].velocity) / films_[b].to_neighbour)
+                   : Scalar(0);
     }
 
     /// Checks a displaced body and gives it back what its law conserves.

@@ -62,6 +62,13 @@ struct SingleLayer {
     static constexpr bool normals = false;
     const Kernel& kernel;
 
+    /// Adds what the images of a wall contribute; `points` belong to the quadrature.
+    template <class Quadrature>
+    void add_images(const Meridian<S>& targets, const Quadrature& quadrature, Matrix<S>& out) const {
+        kernel.regular(
+            targets, [&](const S& apart) { return quadrature(apart).first; }, out);
+    }
+
     void entries(const Point<S>& target, const LayerPoints<S>& points, Index begin, Index n,
                  const KernelArrays<S>& out) const {
         kernel.singular(target, points.r.data() + begin, points.z.data() + begin, n, out);
@@ -78,6 +85,16 @@ struct DoubleLayer {
     using S = typename Kernel::Scalar;
     static constexpr bool normals = true;
     const Kernel& kernel;
+
+    /// Pair by pair.
+    template <class Quadrature>
+    void add_images(const Meridian<S>& targets, const Quadrature& quadrature, Matrix<S>& out) const {
+        const auto [sources, points] = quadrature(S(0));
+        Vector<S> n(2 * points.size());
+        n << Eigen::Map<const Vector<S>>(points.normal_r.data(), points.size()),
+            Eigen::Map<const Vector<S>>(points.normal_z.data(), points.size());
+        kernel.regular_stress(targets, sources, n, out);
+    }
 
     void entries(const Point<S>& target, const LayerPoints<S>& points, Index begin, Index n,
                  const KernelArrays<S>& out) const {
@@ -316,17 +333,17 @@ class LayerAssembly {
             return;
         }
         if constexpr (requires { basis_.weights(fixed, Index()); }) {
-            layer_.kernel.regular(
+            layer_.add_images(
                 targets,
                 [&](const S& apart) {
-                    const LayerPoints<S> points = image_points(fixed, nearest, apart);
+                    LayerPoints<S> points = image_points(fixed, nearest, apart);
                     RegularQuadrature<S> result = quadrature(points);
                     for (Index q = 0; q < points.size(); ++q) {
                         const Index p = points.panel[static_cast<std::size_t>(q)];
                         result.panel[q] = (first_end(p).z + last_end(p).z) / 2;
                     }
                     result.weights = basis_.weights(points, basis_.size());
-                    return result;
+                    return std::pair(std::move(result), std::move(points));
                 },
                 g);
         } else {
@@ -335,8 +352,8 @@ class LayerAssembly {
             forces.weights.resize(points.size(), points.size());
             forces.weights.setIdentity();
             Matrix<S> m = Matrix<S>::Zero(2 * targets.nodes(), 2 * points.size());
-            layer_.kernel.regular(
-                targets, [&](const S&) { return forces; }, m);
+            layer_.add_images(
+                targets, [&](const S&) { return std::pair(forces, points); }, m);
             const Matrix<S> transposed = m.transpose();
             Matrix<S> sum = Matrix<S>::Zero(g.cols(), g.rows());
             basis_.spread(points, transposed, sum);

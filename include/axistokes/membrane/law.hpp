@@ -6,6 +6,7 @@
 #include "../core.hpp"
 
 #include <concepts>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -22,15 +23,36 @@ concept NamedConstraint = requires {
     { L::constraint } -> std::convertible_to<Constraint>;
 };
 
+/// Stand for laws of the other kind where a concept asks about one kind: a disjunction would hide what is missing.
+template <class S>
+struct SomeRigidLaw {
+    using Scalar = S;
+    static constexpr Constraint constraint = Constraint::rigid;
+    std::optional<S> velocity;
+};
+template <class S>
+struct SomeDeformableLaw {
+    using Scalar = S;
+    static constexpr Constraint constraint = Constraint::none;
+    static constexpr bool conserves_area = false;
+    template <class Surface>
+    Vector<S> force(const Surface&) const;
+    template <class Surface>
+    typename Surface::Operator linearisation(const Surface&, const Vector<S>&) const;
+};
 template <class L>
-concept RigidLaw = NamedConstraint<L> && L::constraint == Constraint::rigid&& requires(const L& law) {
-    law.velocity.has_value();
+using RigidOrSome = std::conditional_t<L::constraint == Constraint::rigid, L, SomeRigidLaw<typename L::Scalar>>;
+template <class L>
+using DeformableOrSome =
+    std::conditional_t<L::constraint == Constraint::rigid, SomeDeformableLaw<typename L::Scalar>, L>;
+
+template <class L>
+concept RigidLaw = requires(const L& law) {
+    { law.velocity } -> std::convertible_to<std::optional<typename L::Scalar>>;
 };
 
 template <class L, class Surface>
-concept DeformableLaw = NamedConstraint<L> &&
-                        L::constraint != Constraint::rigid&& requires(const L& law, const Surface& surface,
-                                                                      const Vector<typename L::Scalar>& tension) {
+concept DeformableLaw = requires(const L& law, const Surface& surface, const Vector<typename L::Scalar>& tension) {
     { L::conserves_area } -> std::convertible_to<bool>;
     { law.force(surface) } -> std::convertible_to<Vector<typename L::Scalar>>;
     { law.linearisation(surface, tension) } -> std::convertible_to<typename Surface::Operator>;
@@ -49,7 +71,8 @@ concept DeformableLaw = NamedConstraint<L> &&
 ///   are stable; it need not be exact. `tension` is the constraint's, of the previous step, or empty;
 /// - `conserves_area`: whether the interface's area is a constant of the motion. Its volume always is.
 template <class L, class Surface>
-concept LawFor = detail::NamedConstraint<L> &&(detail::RigidLaw<L> || detail::DeformableLaw<L, Surface>);
+concept LawFor = detail::NamedConstraint<L> && detail::RigidLaw<detail::RigidOrSome<L>> &&
+    detail::DeformableLaw<detail::DeformableOrSome<L>, Surface>;
 
 /// A body of one of several kinds, chosen at run time: a scene of OneOf<Vesicle<>, RigidBody<>> holds both.
 template <class... Laws>
@@ -124,15 +147,23 @@ Vector<S> elastic_force(const L& law, const Surface& surface) {
     });
 }
 
-template <class L, class Surface>
-struct LawsFit : std::bool_constant<LawFor<L, Surface>> {};
-template <class... Laws, class Surface>
-struct LawsFit<OneOf<Laws...>, Surface> : std::bool_constant<(LawFor<Laws, Surface> && ...)> {};
+/// The law itself, or of OneOf several the first that does not fit.
+template <class Surface, class... Laws>
+struct FirstMisfit;
+template <class Surface, class L>
+struct FirstMisfit<Surface, L> {
+    using type = L;
+};
+template <class Surface, class L, class... Others>
+struct FirstMisfit<Surface, L, Others...>
+    : std::conditional_t<LawFor<L, Surface>, FirstMisfit<Surface, Others...>, FirstMisfit<Surface, L>> {};
+template <class Surface, class... Laws>
+struct FirstMisfit<Surface, OneOf<Laws...>> : FirstMisfit<Surface, Laws...> {};
 
 }  // namespace detail
 
 /// A law that fits, or OneOf several that do.
 template <class L, class Surface>
-concept LawsFor = LawFor<L, Surface> ||(!detail::NamedConstraint<L> && detail::LawsFit<L, Surface>::value);
+concept LawsFor = LawFor<typename detail::FirstMisfit<Surface, L>::type, Surface>;
 
 }  // namespace axistokes
