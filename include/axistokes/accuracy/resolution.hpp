@@ -28,14 +28,14 @@ constexpr Index most_elements = JudgesItself<Discretization> ? 160 : 256;
 
 /// The next number of modes when the share `now` of the last ones is to fall to `wanted`: they decay geometrically.
 inline Index more_modes(Index elements, double now, double wanted, Index most) {
-    const double n = static_cast<double>(elements);
+    const auto n = static_cast<double>(elements);
     const double needed = n * std::log(wanted / 3) / std::log(std::min(now, 0.5));
     return std::min(static_cast<Index>(std::ceil(std::clamp(needed, 1.2 * n, 1.6 * n))), most);
 }
 
 /// The next number of elements of second order that reduces an error to the one wanted.
 inline Index more_elements(Index elements, double error, double wanted, Index most) {
-    const double n = static_cast<double>(elements);
+    const auto n = static_cast<double>(elements);
     const double needed = 1.1 * n * std::sqrt(error / wanted);
     return std::min(static_cast<Index>(std::ceil(std::clamp(needed, 1.3 * n, 2 * n))), most);
 }
