@@ -45,7 +45,8 @@ struct StepRecord {
     S area_error{};  // relative change in this step before the correction
     S volume_error{};
     S bending_energy{};  // 2 Int H^2 dA; 0 for a rigid body
-    S residual{};        // largest normal velocity relative to the centroid, over the velocity scale
+    S residual{};  // largest normal velocity relative to the centroid, or of it relative to the first body's, over the
+                   // velocity scale
     S film_thickness_min = std::numeric_limits<S>::infinity();  // distance to the wall, along the curve
     S film_thickness_mean = std::numeric_limits<S>::infinity();
     S neighbour_distance = std::numeric_limits<S>::infinity();  // to the nearest other body
@@ -449,6 +450,7 @@ class Simulator {
     }
 
     void describe(Attempt& attempt, std::size_t b, const Scalar& dt) const {
+        using std::abs;
         const Configuration<Scalar>& body = attempt.moment.bodies[b];
         const InstantType& instant = attempt.moment.instants[b];
         Record& record = attempt.records[b];
@@ -458,7 +460,9 @@ class Simulator {
         record.dt = dt;
         record.position = body.position;
         record.velocity = instant.velocity;
-        record.residual = instant.deformation_rate / std::max(Scalar(1), scene_.velocity_scale());
+        // Several bodies are at rest relative to each other only if they move alike.
+        const Scalar apart = abs(instant.velocity - attempt.moment.instants.front().velocity);
+        record.residual = std::max(instant.deformation_rate, apart) / std::max(Scalar(1), scene_.velocity_scale());
         record.pressure_drop = instant.pressure_drop;
         record.length = body.shape.z[body.shape.nodes() - 1] - body.shape.z[0];
         record.max_radius = scene_.discretization().max_radius(body.shape);

@@ -225,7 +225,7 @@ class Driver {
     /// of the coarser one, or, of second order, that of the finer.
     void solve_rigid() {
         constexpr Index most_of_rigid = 2 * most;
-        march_on();
+        settle_rigid();
         auto now = velocity_and_force(*simulator_);
         if (!adapts()) {
             Simulator coarse = make_(std::max(minimum_elements, (2 * elements()) / 3));
@@ -238,12 +238,19 @@ class Driver {
             const double error = std::min(1.0, double(result_.error_estimate));
             restart(spectral ? std::min(most_of_rigid, before + before / 2)
                              : more_elements(before, error, double(params_.eps), most_of_rigid));
-            march_on();
+            settle_rigid();
             const auto finer = velocity_and_force(*simulator_);
             result_.error_estimate = rigid_error(now, finer, before);
             now = finer;
         }
         take();
+    }
+
+    /// One body is stationary at once; of several the instant they are given at is wanted.
+    void settle_rigid() {
+        if (simulator_->bodies() == 1) {
+            march_on();
+        }
     }
 
     /// Of all bodies.
