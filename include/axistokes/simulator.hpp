@@ -278,6 +278,14 @@ class Simulator {
 
     Index steps() const { return static_cast<Index>(histories_.front().size()); }
 
+    bool deforms() const {
+        bool any = false;
+        for (std::size_t b = 0; b < bodies() && SceneType::deformable; ++b) {
+            any = any || scene_.deforms(b);
+        }
+        return any;
+    }
+
     [[noreturn]] void fail(const std::string& cause) const {
         throw SimulationFailure("step " + std::to_string(steps() + 1) + " at time " + detail::text(time_) + ": " +
                                 cause);
@@ -319,7 +327,7 @@ class Simulator {
         StepReport<Scalar>& report = attempt.report;
         report.dt = dt;
         report.order = integrator_.order;
-        report.deformable = SceneType::deformable;
+        report.deformable = deforms();
         Scalar error = 0;
         if constexpr (requires { step.error; }) {
             error = step.error;
