@@ -30,11 +30,11 @@ struct TubeOptions {
     }
 };
 
-/// Of a particle in a tube (docs/gallery.md, "The summary of a scene in a tube"): the film (R0), the pressure drop that the
-/// particle adds (kappa/R0^3) and, in a flow of the given mean velocity V, that drop in eta V/Rc, the mobility U/V, the
-/// ratio of tube to discharge haematocrit V/U, the viscosity relative to the fluid's of a piece of tube as long as the
-/// particle, and the intrinsic one (the relative increase over the volume fraction, whatever the length); of a meshed
-/// wall also its panels, without those on the ends, and all its nodes.
+/// Of a particle in a tube (docs/gallery.md, "The summary of a scene in a tube"): the film (R0), the pressure drop that
+/// the particle adds (kappa/R0^3) and, in a flow of the given mean velocity V, that drop in eta V/Rc, the mobility U/V,
+/// the ratio of tube to discharge haematocrit V/U, the viscosity relative to the fluid's of a piece of tube as long as
+/// the particle, and the intrinsic one (the relative increase over the volume fraction, whatever the length); of a
+/// meshed wall also its panels, without those on the ends, and all its nodes.
 template <class Simulator>
 nlohmann::ordered_json tube_summary(const Simulator& simulator, const Ending<Simulator>& ending, double mean_velocity) {
     const auto& result = ending.result;

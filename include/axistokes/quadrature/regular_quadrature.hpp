@@ -9,7 +9,8 @@
 namespace axistokes {
 
 /// Points on the meridian, and (points x nodes) what a unit force density at each node contributes to the force per
-/// unit azimuthal length at each point: quadrature weight times interpolation, without the factor 1/(8 pi) of the layer.
+/// unit azimuthal length at each point: quadrature weight times interpolation, without the factor 1/(8 pi) of the
+/// layer.
 template <class S>
 struct RegularQuadrature {
     Meridian<S> points;
