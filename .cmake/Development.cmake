@@ -6,8 +6,6 @@ if(AXISTOKES_WARNINGS_AS_ERRORS)
   target_compile_options(axistokes_warnings INTERFACE -Werror)
 endif()
 
-# On by default, but only here, never for consumers: what is built runs on processors like this one. ccache hashes what
-# -march=native stands for, so a shared cache is safe. The tests do without it.
 add_library(axistokes_native INTERFACE)
 if(AXISTOKES_NATIVE)
   target_compile_options(axistokes_native INTERFACE -march=native)
