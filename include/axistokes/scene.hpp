@@ -4,6 +4,7 @@
 
 #include "concepts.hpp"
 #include "equation/motion.hpp"
+#include "geometry/distance.hpp"
 #include "wall/no_wall.hpp"
 
 #include <algorithm>
@@ -62,24 +63,6 @@ std::pair<S, Vector<S>> relative_normal_velocity(const Surface& surface, const V
     const S velocity = moment.dot(w) / moment.dot(surface.normal_z);
     w -= velocity * surface.normal_z;
     return {velocity, std::move(w)};
-}
-
-/// Least distance of the nodes of one meridian from the chords of another one.
-template <class S>
-S least_distance(const Meridian<S>& nodes, const Meridian<S>& chords) {
-    using std::sqrt;
-    S least = std::numeric_limits<S>::infinity();
-    for (Index i = 0; i < nodes.nodes(); ++i) {
-        for (Index e = 0; e < chords.elements(); ++e) {
-            const S dr = chords.r[e + 1] - chords.r[e];
-            const S dz = chords.z[e + 1] - chords.z[e];
-            const S r = nodes.r[i] - chords.r[e];
-            const S z = nodes.z[i] - chords.z[e];
-            const S t = std::clamp(S((r * dr + z * dz) / (dr * dr + dz * dz)), S(0), S(1));
-            least = std::min(least, S((r - t * dr) * (r - t * dr) + (z - t * dz) * (z - t * dz)));
-        }
-    }
-    return sqrt(least);
 }
 
 template <class S>
@@ -286,9 +269,8 @@ class Scene {
         for (const std::size_t other : {body - 1, body + 1}) {
             if (other < state.size()) {
                 const Scalar apart = state[other].position - state[body].position;
-                film.to_neighbour =
-                    std::min(film.to_neighbour,
-                             detail::least_distance(state[body].shape, detail::shifted(state[other].shape, apart)));
+                film.to_neighbour = std::min(
+                    film.to_neighbour, least_distance(state[body].shape, detail::shifted(state[other].shape, apart)));
             }
         }
         return film;

@@ -229,7 +229,6 @@ class Driver {
         auto now = velocity_and_force(*simulator_);
         if (!adapts()) {
             Simulator coarse = make_(std::max(minimum_elements, (2 * elements()) / 3));
-            coarse.step();
             result_.error_estimate =
                 rigid_error(velocity_and_force(coarse), now, coarse.configuration().shape.elements());
         }

@@ -266,9 +266,7 @@ class FreeSpaceKernel {
                         KernelArrays<S> log_coefficient) const {
         if (target.r == S(0)) {
             singular(target, r, z, n, smooth);
-            for (S* entry : {log_coefficient.rr, log_coefficient.rz, log_coefficient.zr, log_coefficient.zz}) {
-                std::fill_n(entry, n, S(0));
-            }
+            set_zero(log_coefficient, n);
             return;
         }
         for_each_block(target, r, z, n, [&](const detail::RingBlock<S>& block, Index begin, std::size_t count) {
@@ -308,9 +306,7 @@ class FreeSpaceKernel {
                       KernelArrays<S> smooth, KernelArrays<S> log_coefficient) const {
         if (target.r == S(0)) {
             stress(target, r, z, normal_r, normal_z, n, smooth);
-            for (S* entry : {log_coefficient.rr, log_coefficient.rz, log_coefficient.zr, log_coefficient.zz}) {
-                std::fill_n(entry, n, S(0));
-            }
+            set_zero(log_coefficient, n);
             return;
         }
         for_each_block(target, r, z, n, [&](const detail::RingBlock<S>& block, Index begin, std::size_t count) {
@@ -325,6 +321,12 @@ class FreeSpaceKernel {
     }
 
   private:
+    static void set_zero(const KernelArrays<S>& out, Index n) {
+        for (S* entry : {out.rr, out.rz, out.zr, out.zz}) {
+            std::fill_n(entry, n, S(0));
+        }
+    }
+
     template <class Use>
     static void for_each_block(const Point<S>& target, const S* r, const S* z, Index n, Use use) {
         detail::require(target.r >= S(0), "target radius", target.r, ">= 0");
