@@ -102,18 +102,20 @@ auto fluid_velocity(const SceneType& scene, const Configuration<S>& configuratio
             };
         }
     }();
-    return [disturbance, &scene, position = configuration.position](const Meridian<S>& points) {
-        Vector<S> velocity = disturbance(points);
-        if constexpr (std::remove_cvref_t<decltype(scene.flow())>::has_flow) {
+    if constexpr (std::remove_cvref_t<decltype(scene.flow())>::has_flow) {
+        return [disturbance, &scene, position = configuration.position](const Meridian<S>& points) {
+            Vector<S> velocity = disturbance(points);
             const Index n = points.nodes();
             for (Index i = 0; i < n; ++i) {
                 const Point<S> background = scene.flow().velocity({points.r[i], points.z[i] + position});
                 velocity[i] += background.r;
                 velocity[n + i] += background.z;
             }
-        }
-        return velocity;
-    };
+            return velocity;
+        };
+    } else {
+        return disturbance;
+    }
 }
 
 /// The velocity at the grid's nodes; 0 beyond the wall. In a tube the grid ends there. Throws InvalidArgument when the
