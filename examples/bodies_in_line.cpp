@@ -76,6 +76,6 @@ int main(int argc, char** argv) {
         if (!c.spheres) {
             c.parameters["excess_area"] = c.vesicle.excess_area;
         }
-        return c.run.method.spectral() ? examples::run_line_spectral(c) : examples::run_line_linear(c);
+        return examples::run_line(c);
     });
 }

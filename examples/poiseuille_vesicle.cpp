@@ -48,7 +48,6 @@ int main(int argc, char** argv) {
         if (wall.meshed()) {
             const auto accuracy = run.method.accuracy();
             c.surroundings.wall = wall.params(wall_tolerance.value_or(accuracy ? accuracy->wall : 1e-5));
-            return examples::run_vesicle_in_mesh(c);
         }
         return examples::run_vesicle(c);
     });

@@ -30,6 +30,6 @@ int main(int argc, char** argv) {
     options.add_to(app);
     return examples::run_program("vesicle_through_constriction", app, argc, argv, [&] {
         options.check();
-        return options.method.spectral() ? examples::pass_spectral(options) : examples::pass_linear(options);
+        return examples::pass(options);
     });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A rigid body whose motion is to be found, and the programs that do: one a discretisation, each compiled by itself.
+// A rigid body whose motion is to be found.
 #pragma once
 
 #include "options.hpp"
@@ -29,11 +29,6 @@ struct BodyCase {
     nlohmann::ordered_json parameters;
 };
 
-int run_body_linear(const BodyCase& c);
-int run_body_spectral(const BodyCase& c);
-
-inline int run_body(const BodyCase& c) {
-    return c.run.method.spectral() ? run_body_spectral(c) : run_body_linear(c);
-}
+int run_body(const BodyCase& c);
 
 }  // namespace examples

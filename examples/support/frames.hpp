@@ -2,7 +2,7 @@
 // Shapes kept on the way, in the laboratory frame.
 #pragma once
 
-#include <axistokes/geometry/meridian.hpp>
+#include "simulation.hpp"
 #include <axistokes/io/csv.hpp>
 
 #include <algorithm>
@@ -38,15 +38,10 @@ class Frames {
     std::vector<double> frame_, time_, r_, z_;
 };
 
-/// A curve to draw: the nodes, or, of a discretisation that has few of them, more points between them.
-template <class Discretization>
-axistokes::Meridian<double> drawn_curve(const Discretization& discretization,
-                                        const axistokes::Meridian<double>& shape) {
-    if constexpr (requires { discretization.unresolved(shape); }) {
-        return discretization.redistributed(shape, 4 * shape.elements());
-    } else {
-        return shape;
-    }
+/// A curve to draw: the nodes, or, of a series that has few of them, more points between them.
+inline axistokes::Meridian<double> drawn_curve(const AnyDiscretization& discretization,
+                                               const axistokes::Meridian<double>& shape) {
+    return discretization.judges_itself() ? discretization.redistributed(shape, 4 * shape.elements()) : shape;
 }
 
 /// Keeps the first shape at or after each of the given times.
@@ -54,12 +49,11 @@ class FramesAt {
   public:
     explicit FramesAt(std::vector<double> times) : times_(std::move(times)) { std::sort(times_.begin(), times_.end()); }
 
-    template <class Simulator>
-    void visit(double time, const Simulator& simulator) {
+    void visit(double time, const Simulation& simulation) {
         if (next_ == times_.size() || time < times_[next_]) {
             return;
         }
-        frames_.add(time, drawn_curve(simulator.scene().discretization(), simulator.shape()));
+        frames_.add(time, drawn_curve(simulation.scene().discretization(), simulation.shape()));
         while (next_ < times_.size() && times_[next_] <= time) {
             ++next_;
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies in line, and the programs that follow them: one a discretisation, each compiled by itself.
+// Bodies in line to follow.
 #pragma once
 
 #include "options.hpp"
@@ -27,7 +27,6 @@ struct LineCase {
     nlohmann::ordered_json parameters;
 };
 
-int run_line_linear(const LineCase& c);
-int run_line_spectral(const LineCase& c);
+int run_line(const LineCase& c);
 
 }  // namespace examples

@@ -66,6 +66,7 @@ struct RunOptions {
             driver.unresolved = accuracy->unresolved;
             driver.newton_tolerance = accuracy->residual;
             driver.to_round_off = true;
+            driver.first_elements = method.spectral() ? 16 : 32;
         } else {
             driver.first_elements = method.spectral() ? 32 : 64;
         }

@@ -1,44 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A vesicle's passage through a narrowing channel, and the programs that simulate it: one a discretisation.
+// A vesicle's passage through a narrowing channel.
 #pragma once
 
+#include "channel.hpp"
 #include "method.hpp"
-#include <axistokes/wall/profile.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>
-#include <utility>
-#include <variant>
 
 namespace examples {
-
-/// One of the library's narrowing channels, chosen at run time.
-class Channel {
-  public:
-    using Scalar = double;
-    static constexpr bool uniform = false;
-    using Choice = std::variant<axistokes::Constriction<double>, axistokes::Pore<double>>;
-
-    explicit Channel(Choice choice) : choice_(std::move(choice)) {}
-
-    double radius(const double& z) const {
-        return std::visit([&](const auto& profile) { return profile.radius(z); }, choice_);
-    }
-    double slope(const double& z) const {
-        return std::visit([&](const auto& profile) { return profile.slope(z); }, choice_);
-    }
-    double begin() const {
-        return std::visit([](const auto& profile) { return profile.begin(); }, choice_);
-    }
-    double end() const {
-        return std::visit([](const auto& profile) { return profile.end(); }, choice_);
-    }
-
-  private:
-    Choice choice_;
-};
 
 struct PassageOptions {
     MethodOptions method;
@@ -87,7 +59,6 @@ struct PassageOptions {
     }
 };
 
-int pass_linear(const PassageOptions& options);
-int pass_spectral(const PassageOptions& options);
+int pass(const PassageOptions& options);
 
 }  // namespace examples

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A vesicle to simulate, and the programs that do: one a discretisation and kind of wall, each compiled by itself.
+// A vesicle to simulate.
 #pragma once
 
 #include "options.hpp"
@@ -19,17 +19,6 @@ struct VesicleCase {
     nlohmann::ordered_json parameters;
 };
 
-int run_linear(const VesicleCase& c);
-int run_spectral(const VesicleCase& c);
-int run_linear_in_mesh(const VesicleCase& c);
-int run_spectral_in_mesh(const VesicleCase& c);
-
-/// Without a meshed wall.
-inline int run_vesicle(const VesicleCase& c) {
-    return c.run.method.spectral() ? run_spectral(c) : run_linear(c);
-}
-inline int run_vesicle_in_mesh(const VesicleCase& c) {
-    return c.run.method.spectral() ? run_spectral_in_mesh(c) : run_linear_in_mesh(c);
-}
+int run_vesicle(const VesicleCase& c);
 
 }  // namespace examples

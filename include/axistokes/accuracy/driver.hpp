@@ -101,13 +101,14 @@ class Driver {
     }
 
   private:
-    static constexpr bool spectral = JudgesItself<Discretization>;
-    static constexpr Index most = most_elements<Discretization>;
+    static constexpr bool can_judge = JudgesItself<Discretization>;
     static constexpr bool deformable = Simulator::SceneType::deformable;
 
     void restart(Index elements) { simulator_.emplace(make_(elements)); }
 
     const Discretization& discretization() const { return simulator_->scene().discretization(); }
+    bool spectral() const { return judges_itself(discretization()); }
+    Index most() const { return most_elements(discretization()); }
     const Meridian<S>& shape(std::size_t body = 0) const { return simulator_->configuration(body).shape; }
     Index elements() const { return shape().elements(); }
     Index steps() const { return static_cast<Index>(simulator_->history().size()); }
@@ -142,9 +143,9 @@ class Driver {
 
     /// The first body that needs more modes, or none.
     std::optional<std::size_t> needy() const {
-        if constexpr (spectral && deformable) {
-            for (std::size_t b = 0; adapts() && b < simulator_->bodies(); ++b) {
-                if (simulator_->scene().deforms(b) && shape(b).elements() < most &&
+        if constexpr (can_judge && deformable) {
+            for (std::size_t b = 0; spectral() && adapts() && b < simulator_->bodies(); ++b) {
+                if (simulator_->scene().deforms(b) && shape(b).elements() < most() &&
                     discretization().unresolved(shape(b)) > allowed()) {
                     return b;
                 }
@@ -154,9 +155,9 @@ class Driver {
     }
 
     void add_elements(std::size_t body) {
-        if constexpr (spectral && deformable) {
+        if constexpr (can_judge && deformable) {
             simulator_->refine(more_modes(shape(body).elements(), double(discretization().unresolved(shape(body))),
-                                          double(allowed()), most),
+                                          double(allowed()), most()),
                                body);
         }
     }
@@ -176,7 +177,7 @@ class Driver {
             try {
                 simulator_->run(observe);
             } catch (const SimulationFailure&) {
-                if (!adapts() || !deformable || elements() >= most || rescues-- == 0) {
+                if (!adapts() || !deformable || elements() >= most() || rescues-- == 0) {
                     throw;
                 }
                 rescue();
@@ -194,7 +195,7 @@ class Driver {
     /// Goes on with half as many elements again: a shape that cannot move on may not be carried by those it has.
     void rescue() {
         if constexpr (deformable) {
-            const Index next = std::min(most, elements() + elements() / 2);
+            const Index next = std::min(most(), elements() + elements() / 2);
             if (steps() == 0) {
                 restart(next);
             } else {
@@ -211,7 +212,7 @@ class Driver {
 
     void march_to_the_end() {
         march_on();
-        if constexpr (spectral) {
+        if (spectral()) {
             estimate_from_modes();
         } else if (adapts()) {
             refine_until_met();
@@ -224,7 +225,7 @@ class Driver {
     /// Velocity and force of a rigid body. Its shape may be simple and its traction is not: two results tell the error
     /// of the coarser one, or, of second order, that of the finer.
     void solve_rigid() {
-        constexpr Index most_of_rigid = 2 * most;
+        const Index most_of_rigid = 2 * most();
         settle_rigid();
         auto now = velocity_and_force(*simulator_);
         if (!adapts()) {
@@ -235,8 +236,8 @@ class Driver {
         while (adapts() && !(result_.error_estimate <= params_.eps) && elements() < most_of_rigid && !stopped_) {
             const Index before = elements();
             const double error = std::min(1.0, double(result_.error_estimate));
-            restart(spectral ? std::min(most_of_rigid, before + before / 2)
-                             : more_elements(before, error, double(params_.eps), most_of_rigid));
+            restart(spectral() ? std::min(most_of_rigid, before + before / 2)
+                               : more_elements(before, error, double(params_.eps), most_of_rigid));
             settle_rigid();
             const auto finer = velocity_and_force(*simulator_);
             result_.error_estimate = rigid_error(now, finer, before);
@@ -272,7 +273,7 @@ class Driver {
         const Vector<S>& b = driven ? fine.first : fine.second;
         const S difference = (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
         const S ratio = S(elements()) / S(coarse_elements);
-        return spectral ? difference : S(difference / (ratio * ratio - S(1)));
+        return spectral() ? difference : S(difference / (ratio * ratio - S(1)));
     }
 
     MeasuredState measured(const Simulator& simulator) const {
@@ -288,7 +289,7 @@ class Driver {
     }
 
     void estimate_from_modes() {
-        if constexpr (spectral) {
+        if constexpr (can_judge) {
             S share = 0;
             for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
                 share = std::max<S>(share, discretization().unresolved(shape(b)));
@@ -337,7 +338,7 @@ class Driver {
         MeasuredState coarse = measured(*simulator_);
         double error = 1;  // unknown
         while (!stopped_) {
-            const Index next = more_elements(coarse.elements, error, double(params_.eps), most);
+            const Index next = more_elements(coarse.elements, error, double(params_.eps), most());
             if (params_.transient || !deformable) {
                 restart(next);
             } else if constexpr (deformable) {
@@ -348,7 +349,7 @@ class Driver {
             error = second_order_error(coarse, fine);
             coarse = fine;
             result_.error_estimate = S(error) + time_error();
-            if (error <= double(params_.eps) || fine.elements >= most) {
+            if (error <= double(params_.eps) || fine.elements >= most()) {
                 break;
             }
         }
@@ -433,32 +434,33 @@ class Driver {
             result_.newton_evaluations = state.evaluations;
             bool examined = false;
             S error = std::numeric_limits<S>::infinity();
-            if constexpr (!spectral) {
+            if (!spectral()) {
                 error = coarse_difference(solver, state, area, volume);
             }
             for (;;) {
                 const Meridian<S>& now = state.configuration.shape;
-                if constexpr (spectral) {
-                    error = discretization().unresolved(now) / S(Accuracy<S>::unresolved_to_error);
+                if constexpr (can_judge) {
+                    error =
+                        spectral() ? S(discretization().unresolved(now) / S(Accuracy<S>::unresolved_to_error)) : error;
                 }
                 adopt(state, error);
-                const bool last = error <= params_.eps || !adapts() || now.elements() >= most || stopped_;
+                const bool last = error <= params_.eps || !adapts() || now.elements() >= most() || stopped_;
                 // Growth rates need no more than a recognisable shape, and cost as much as many iterations.
-                if (!examined && (last || !spectral || error < S(1e-3))) {
+                if (!examined && (last || !spectral() || error < S(1e-3))) {
                     examine(solver, state);
                     examined = true;
                 }
                 if (last) {
                     return;
                 }
-                const Index next = spectral
-                                       ? more_modes(now.elements(), 2 * double(error), double(params_.unresolved), most)
-                                       : more_elements(now.elements(), double(error), double(params_.eps), most);
+                const Index next =
+                    spectral() ? more_modes(now.elements(), 2 * double(error), double(params_.unresolved), most())
+                               : more_elements(now.elements(), double(error), double(params_.eps), most());
                 try {
                     auto finer = solver.solve(discretization().redistributed(now, next), area, volume);
                     result_.newton_iterations += finer.iterations;
                     result_.newton_evaluations += finer.evaluations;
-                    if constexpr (!spectral) {
+                    if (!spectral()) {
                         error = S(second_order_error(measured_state(state), measured_state(finer)));
                     }
                     state = std::move(finer);
@@ -494,7 +496,7 @@ class Driver {
     void examine(Newton& solver, const State& given) {
         constexpr Index enough = 64;
         State state = given;
-        if (spectral && given.configuration.shape.elements() > enough) {
+        if (spectral() && given.configuration.shape.elements() > enough) {
             try {
                 state = solver.solve(discretization().redistributed(given.configuration.shape, enough),
                                      simulator_->initial_area(), simulator_->initial_volume());

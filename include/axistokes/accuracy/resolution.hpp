@@ -20,11 +20,25 @@ concept JudgesItself = requires(const Discretization& d, const Meridian<typename
     { d.unresolved(shape) } -> std::convertible_to<typename Discretization::Scalar>;
 };
 
+/// Whether this one does. One that is chosen at run time says so itself.
+template <class Discretization>
+bool judges_itself(const Discretization& discretization) {
+    if constexpr (requires {
+                      { discretization.judges_itself() } -> std::convertible_to<bool>;
+                  }) {
+        return discretization.judges_itself();
+    } else {
+        return JudgesItself<Discretization>;
+    }
+}
+
 /// First and largest number of elements that are tried.
 template <class Discretization>
 constexpr Index first_elements = JudgesItself<Discretization> ? 16 : 32;
 template <class Discretization>
-constexpr Index most_elements = JudgesItself<Discretization> ? 160 : 256;
+Index most_elements(const Discretization& discretization) {
+    return judges_itself(discretization) ? 160 : 256;
+}
 
 /// The next number of modes when the share `now` of the last ones is to fall to `wanted`: they decay geometrically.
 inline Index more_modes(Index elements, double now, double wanted, Index most) {
@@ -46,10 +60,11 @@ template <class Discretization, class Shape>
 Meridian<typename Discretization::Scalar> nodes_of(const Discretization& discretization, const Shape& shape,
                                                    Index elements) {
     if constexpr (JudgesItself<Discretization>) {
-        return discretization.redistributed(shape(std::max<Index>(128, 2 * elements)), elements);
-    } else {
-        return shape(elements);
+        if (judges_itself(discretization)) {
+            return discretization.redistributed(shape(std::max<Index>(128, 2 * elements)), elements);
+        }
     }
+    return shape(elements);
 }
 
 /// With `first` or more elements: as many as the share `wanted` of the last modes takes.
@@ -58,9 +73,10 @@ Meridian<typename Discretization::Scalar> resolved_nodes(const Discretization& d
                                                          Index first, double wanted) {
     auto nodes = nodes_of(discretization, shape, first);
     if constexpr (JudgesItself<Discretization>) {
-        constexpr Index most = most_elements<Discretization>;
+        const Index most = most_elements(discretization);
         for (auto share = static_cast<double>(discretization.unresolved(nodes));
-             share > wanted && nodes.elements() < most; share = static_cast<double>(discretization.unresolved(nodes))) {
+             judges_itself(discretization) && share > wanted && nodes.elements() < most;
+             share = static_cast<double>(discretization.unresolved(nodes))) {
             nodes = nodes_of(discretization, shape, more_modes(nodes.elements(), share, wanted, most));
         }
     }

@@ -269,7 +269,7 @@ class MotionEquation {
         }
         const Index tensions = surface.divergence.rows();
         if (p.velocity != none) {
-            matrix_.block(p.tension, p.velocity, tensions, n) = surface.divergence;
+            matrix_.block(p.tension, p.velocity, tensions, n) = Matrix<S>(surface.divergence);
         } else {
             const Matrix<S> rows = response_.middleRows(p.begin, n);
             const Vector<S> given = velocity_given_.segment(p.begin, n);

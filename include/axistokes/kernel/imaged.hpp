@@ -82,6 +82,8 @@ class ImagedKernel {
     explicit ImagedKernel(Images images) : images_(std::move(images)) {}
 
     const Images& images() const { return images_; }
+    /// Without the images.
+    const FreeSpaceKernel<S>& free_space() const { return free_space_; }
 
     /// The free-space part, which carries the singularity: as FreeSpaceKernel.
     void singular(const Point<S>& target, const S* r, const S* z, Index n, const KernelArrays<S>& out) const {

@@ -31,8 +31,8 @@ class ChannelMesh {
                  quadrature_tolerance(params.tolerance)) {
         const Scalar low = particle.z.minCoeff();
         const Scalar high = particle.z.maxCoeff();
-        lower_ = (Profile::uniform ? low : std::min(low, Scalar(profile.begin()))) - margin(profile, params, low);
-        upper_ = (Profile::uniform ? high : std::max(high, Scalar(profile.end()))) + margin(profile, params, high);
+        lower_ = (profile.uniform ? low : std::min(low, Scalar(profile.begin()))) - margin(profile, params, low);
+        upper_ = (profile.uniform ? high : std::max(high, Scalar(profile.end()))) + margin(profile, params, high);
         breaks_ = params.grading == WallGrading::quadratic ? quadratic_breaks((low + high) / 2)
                                                            : equidistributed_breaks(particle);
         if (!params.panels) {
@@ -87,7 +87,7 @@ class ChannelMesh {
 
     /// The profile, continued by straight tubes.
     static Scalar channel_radius(const Profile& profile, const Scalar& z) {
-        return profile.radius(Profile::uniform ? z : std::clamp(z, Scalar(profile.begin()), Scalar(profile.end())));
+        return profile.radius(profile.uniform ? z : std::clamp(z, Scalar(profile.begin()), Scalar(profile.end())));
     }
 
     /// Wall needed beyond a particle in a tube of the given radius: a perturbation that an end cuts off comes back to
@@ -117,7 +117,7 @@ class ChannelMesh {
     }
 
     static Scalar channel_slope(const Profile& profile, const Scalar& z) {
-        return Profile::uniform || (z > profile.begin() && z < profile.end()) ? Scalar(profile.slope(z)) : Scalar(0);
+        return profile.uniform || (z > profile.begin() && z < profile.end()) ? Scalar(profile.slope(z)) : Scalar(0);
     }
 
     static Scalar margin(const Profile& profile, const Params& params, const Scalar& z) {
@@ -162,7 +162,7 @@ class ChannelMesh {
         for (Index i = 0; i < samples; ++i) {
             const Scalar z = lower_ + step * (Scalar(i) + Scalar(0.5));
             const Scalar radius = channel_radius(profile_, z);
-            const Scalar slack = Profile::uniform ? Scalar(0) : Scalar(slack_over_radius) * radius;
+            const Scalar slack = profile_.uniform ? Scalar(0) : Scalar(slack_over_radius) * radius;
             const Scalar length =
                 params_.grading == WallGrading::uniform ? Scalar(1) : wanted_length(z, particle, film, slack);
             cumulative[i + 1] = cumulative[i] + step / length;
@@ -205,7 +205,7 @@ class ChannelMesh {
 
     /// Halves panels until the polynomials through their nodes follow the profile, the length of arc included.
     void resolve_profile() {
-        if constexpr (!Profile::uniform) {
+        if (!profile_.uniform) {
             constexpr int deepest = 12;
             std::vector<Scalar> refined{breaks_[0]};
             const auto add = [&](const auto& self, const Scalar& begin, const Scalar& end, int depth) -> void {

@@ -134,7 +134,7 @@ template <ChannelProfile Profile>
 std::optional<typename Profile::Scalar> halfway_area(const Profile& profile, const typename Profile::Scalar& volume) {
     using S = typename Profile::Scalar;
     using std::cbrt;
-    if (Profile::uniform) {
+    if (profile.uniform) {
         return std::nullopt;
     }
     const S narrowest = narrowest_section(profile);
@@ -163,7 +163,7 @@ void require_passage(const Profile& profile, const typename Profile::Scalar& are
         detail::require(throat > limit, "throat radius", throat, accepted.str().c_str());
     };
     refuse(orifice, "no narrower hole lets through");
-    if (Profile::uniform) {
+    if (profile.uniform) {
         refuse(tube, "no narrower tube holds");
         return;
     }

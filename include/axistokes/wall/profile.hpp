@@ -17,7 +17,7 @@ namespace axistokes {
 /// range.
 template <class P>
 concept ChannelProfile = requires(const P& profile, typename P::Scalar z) {
-    { P::uniform } -> std::convertible_to<bool>;
+    { profile.uniform } -> std::convertible_to<bool>;
     { profile.radius(z) } -> std::convertible_to<typename P::Scalar>;
     { profile.slope(z) } -> std::convertible_to<typename P::Scalar>;
     { profile.begin() } -> std::convertible_to<typename P::Scalar>;

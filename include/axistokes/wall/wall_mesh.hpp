@@ -128,8 +128,8 @@ class WallMesh {
     }
 
     /// A straight tube's mesh goes with the bodies.
-    static Scalar centre(const Meridian<Scalar>& particle) {
-        return Profile::uniform ? Scalar((particle.z.minCoeff() + particle.z.maxCoeff()) / 2) : Scalar(0);
+    Scalar centre(const Meridian<Scalar>& particle) const {
+        return profile_.uniform ? Scalar((particle.z.minCoeff() + particle.z.maxCoeff()) / 2) : Scalar(0);
     }
 
     static Meridian<Scalar> joined(const std::vector<Meridian<Scalar>>& bodies) {

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Follows a vesicle through a channel and writes what came of it.
-#pragma once
-
-#include "compiled.hpp"
-#include "exit_code.hpp"
-#include "frames.hpp"
-#include "last_shape.hpp"
-#include "neck.hpp"
-#include "passage_case.hpp"
-#include "progress.hpp"
-#include <axistokes/accuracy/resolution.hpp>
-#include <axistokes/flow/quiescent.hpp>
+#include "../support/exit_code.hpp"
+#include "../support/neck.hpp"
+#include "../support/passage_case.hpp"
+#include "../support/progress.hpp"
+#include "../support/results.hpp"
 #include <axistokes/geometry/shapes.hpp>
 #include <axistokes/io/csv.hpp>
-#include <axistokes/kernel/free_space.hpp>
-#include <axistokes/simulator.hpp>
 #include <axistokes/wall/passage.hpp>
-#include <axistokes/wall/wall_mesh.hpp>
 
 #include <boost/math/interpolators/barycentric_rational.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -37,33 +28,29 @@
 
 namespace examples {
 
+namespace {
+
 using axistokes::Index;
 using axistokes::Meridian;
 using axistokes::Vector;
 
-template <class Discretization>
-using Passage = axistokes::Simulator<axistokes::FreeSpaceKernel<double>, Discretization, axistokes::Vesicle<double>,
-                                     axistokes::Quiescent<double>, axistokes::ExtrapolatedEulerOfOrder,
-                                     axistokes::DenseLU<double>, axistokes::WallMesh<Channel>>;
-
 /// Largest relative deviation of the flow rate through sections all along the channel.
-template <class Discretization>
-double flow_rate_deviation(const Passage<Discretization>& simulator,
-                           const typename Passage<Discretization>::InstantType& instant, double flow_rate) {
-    axistokes::WallMesh<Channel> wall = simulator.scene().wall();
-    const auto field = wall.field(simulator.scene().discretization(), simulator.scene().kernel(), simulator.shape(),
-                                  instant.solution.force);
+double flow_rate_deviation(const Simulation& simulation, const Simulation::InstantType& instant, double flow_rate) {
+    AnyWall wall = simulation.scene().wall();
+    const AnyField field = wall.field(simulation.scene().discretization(), simulation.scene().kernel(),
+                                      simulation.shape(), instant.solution.force);
+    const AnyWall::Mesh& mesh = *wall.mesh();
     constexpr int sections = 9;
     double largest = 0;
     for (int i = 0; i < sections; ++i) {
-        const double begin = wall.profile().begin();
-        const double z = begin + (wall.profile().end() - begin) * (i + 0.5) / sections;
-        largest = std::max(largest, std::abs(field.flow_rate(z, wall.radius(z)) / flow_rate - 1));
+        const double begin = mesh.profile().begin();
+        const double z = begin + (mesh.profile().end() - begin) * (i + 0.5) / sections;
+        largest = std::max(largest, std::abs(field.flow_rate(z, mesh.radius(z)) / flow_rate - 1));
     }
     return largest;
 }
 
-inline Vector<double> wall_radii(const Channel& profile, const Vector<double>& z) {
+Vector<double> wall_radii(const Channel& profile, const Vector<double>& z) {
     Vector<double> r(z.size());
     for (Index i = 0; i < z.size(); ++i) {
         r[i] = axistokes::ChannelMesh<Channel>::channel_radius(profile, z[i]);
@@ -123,10 +110,8 @@ class Track {
     std::vector<double> time_, front_, rear_;
 };
 
-template <class Discretization>
 class PassageRun {
-    using Instant = typename Passage<Discretization>::InstantType;
-    static constexpr bool spectral = axistokes::JudgesItself<Discretization>;
+    using Instant = Simulation::InstantType;
     static constexpr double unresolved_to_error = axistokes::Accuracy<double>::unresolved_to_error;
 
   public:
@@ -134,22 +119,22 @@ class PassageRun {
         : options_(options),
           profile_(options.channel()),
           accuracy_(*options.method.accuracy()),
-          discretization_(axistokes::discretization_for<Discretization>(options.method.accuracy())) {
-        Meridian<double> shape = initial_shape();
+          discretization_(discretization_for(options.method)) {
+        const Meridian<double> shape = initial_shape(first_elements());
         measures_ = discretization_.measures(shape);
         axistokes::require_passage(profile_, measures_.area, measures_.volume);
         // It starts a radius upstream of where the channel begins to narrow, and ends as far downstream.
         start_ = profile_.begin() - options.wide - shape.z.maxCoeff();
-        shape.z.array() += start_;
-        axistokes::WallMeshParams<double> wall;
-        wall.flow_rate = options.flow_rate;
-        wall.tolerance = options.tolerance();
-        axistokes::SimulationParams<double> params;
-        params.largest_displacement = options.displacement;
-        params.step_tolerance = options.step_tolerance.value_or(accuracy_.step);
-        simulator_.emplace(shape, axistokes::Quiescent<double>{}, params, axistokes::FreeSpaceKernel<double>{},
-                           discretization_, axistokes::Vesicle<double>{}, options.method.steps(params.step_tolerance),
-                           axistokes::DenseLU<double>{}, axistokes::WallMesh<Channel>(profile_, wall));
+        axistokes::DriverParams<double> params;
+        params.eps = accuracy_.eps;
+        params.unresolved = accuracy_.unresolved;
+        params.transient = true;
+        params.first_elements = first_elements();
+        if (options.elements || !spectral()) {
+            params.elements = first_elements();
+        }
+        driver_.emplace([this](Index elements) { return simulation(elements); }, params,
+                        [this](const Simulation&) { return observe(); });
     }
 
     int operator()() {
@@ -160,8 +145,10 @@ class PassageRun {
         {
             const InterruptGuard guard;
             ProgressBar bar;
+            guard_ = &guard;
+            bar_ = &bar;
             try {
-                advance(guard, bar);
+                advance();
             } catch (const axistokes::SimulationFailure& error) {
                 failure_ = error.what();
             }
@@ -172,96 +159,105 @@ class PassageRun {
     }
 
   private:
-    Meridian<double> initial_shape() const {
-        const auto spheroid = [&](Index elements) {
+    bool spectral() const { return discretization_.judges_itself(); }
+    Index first_elements() const { return options_.elements.value_or(spectral() ? 48 : 80); }
+
+    Meridian<double> initial_shape(Index elements) const {
+        const auto spheroid = [&](Index count) {
             return axistokes::spheroid_of_excess_area<double>(options_.excess_area, axistokes::SpheroidKind::prolate,
-                                                              elements);
+                                                              count);
         };
-        return options_.elements
-                   ? axistokes::nodes_of(discretization_, spheroid, *options_.elements)
-                   : axistokes::resolved_nodes(discretization_, spheroid, spectral ? 48 : 80, accuracy_.unresolved);
+        return options_.elements ? axistokes::nodes_of(discretization_, spheroid, elements)
+                                 : axistokes::resolved_nodes(discretization_, spheroid, elements, accuracy_.unresolved);
     }
 
-    double time() const { return simulator_->history().empty() ? 0 : simulator_->history().back().time; }
-    double position() const { return simulator_->configuration().position; }
+    Simulation simulation(Index elements) const {
+        Meridian<double> shape = initial_shape(elements);
+        shape.z.array() += start_;
+        axistokes::WallMeshParams<double> wall;
+        wall.flow_rate = options_.flow_rate;
+        wall.tolerance = options_.tolerance();
+        axistokes::SimulationParams<double> params;
+        params.largest_displacement = options_.displacement;
+        params.step_tolerance = options_.step_tolerance.value_or(accuracy_.step);
+        params.most_steps = options_.most_steps;
+        return Simulation(
+            Scene(OptionalTubeKernel(OptionalTubeImages()), discretization_, Law(Vesicle()),
+                  Drive(axistokes::Quiescent<double>()), Solver(), AnyWall(AnyWall::Mesh(profile_, wall))),
+            options_.method.steps(params.step_tolerance), shape, params);
+    }
 
-    void advance(const InterruptGuard& guard, ProgressBar& bar) {
-        Index kept = 0;
-        track_.add(0, simulator_->shape());
-        while (position() < -start_ && !guard.interrupted()) {
-            if (static_cast<Index>(simulator_->history().size()) >= options_.most_steps) {
-                throw axistokes::SimulationFailure("not through after " + std::to_string(options_.most_steps) +
-                                                   " steps: the centroid is at z = " + std::to_string(position()));
-            }
-            const double way = (position() - start_) / (-2 * start_);
-            if (way * static_cast<double>(options_.frames - 1) >= static_cast<double>(kept)) {
-                keep_frame(simulator_->instant());
-                ++kept;
-            }
-            const auto record = simulator_->step();
-            resolve();
-            track_.add(record.time, simulator_->shape());
-            film_ = std::min(film_, record.film_thickness_min);
-            drop_ = std::max(drop_, record.pressure_drop);
-            require_passable(record.velocity);
-            std::ostringstream text;
-            text << "step " << record.step << "  z " << record.position << "  film " << record.film_thickness_min;
-            bar.show(way, text.str());
-        }
+    Simulation& now() { return driver_->simulation(); }
+    double position() { return now().configuration().position; }
+    double way() { return (position() - start_) / (-2 * start_); }
+
+    void advance() {
+        track_.add(0, now().shape());
+        keep_frame(now().instant());
+        driver_->run();
         passed_ = position() >= -start_;
+        if (!passed_ && failure_.empty() && !guard_->interrupted()) {
+            failure_ = "not through after " + std::to_string(options_.most_steps) +
+                       " steps: the centroid is at z = " + std::to_string(position());
+        }
+    }
+
+    /// After every step; whether to go on.
+    bool observe() {
+        Simulation& simulation = now();
+        const auto& record = simulation.history().back();
+        track_.add(record.time, simulation.shape());
+        film_ = std::min(film_, record.film_thickness_min);
+        drop_ = std::max(drop_, record.pressure_drop);
+        const double share = discretization_.unresolved(simulation.configuration().shape);
+        const bool refines = !options_.elements && share > accuracy_.unresolved &&
+                             simulation.configuration().shape.elements() < axistokes::most_elements(discretization_);
+        unresolved_ = refines ? unresolved_ : std::max(unresolved_, share);
+        if (way() * static_cast<double>(options_.frames - 1) >= static_cast<double>(kept_)) {
+            keep_frame(simulation.instant());
+        }
+        std::ostringstream text;
+        text << "step " << record.step << "  z " << record.position << "  film " << record.film_thickness_min;
+        bar_->show(way(), text.str());
+        failure_ = obstacle(record.velocity);
+        return failure_.empty() && position() < -start_ && !guard_->interrupted();
     }
 
     /// `instant`: nothing for a shape that has no velocities and forces, having caused a failure.
     void keep_frame(const std::optional<Instant>& instant) {
-        frames_.add(time(), drawn_curve(discretization_, simulator_->shape()));
+        frames_.add(now().time(), drawn_curve(discretization_, now().shape()));
+        ++kept_;
         if (instant) {
-            deviation_ = std::max(deviation_, flow_rate_deviation(*simulator_, *instant, options_.flow_rate));
+            deviation_ = std::max(deviation_, flow_rate_deviation(now(), *instant, options_.flow_rate));
         }
     }
 
     void keep_last() {
         std::optional<Instant> instant;
         try {
-            instant = simulator_->instant();
+            instant = now().instant();
         } catch (const axistokes::SimulationFailure& error) {
             failure_ = failure_.empty() ? error.what() : failure_;
         }
         keep_frame(instant);
-        shape_ = last_shape_columns(simulator_->configuration(), instant);
+        shape_ = last_shape_columns(now().configuration(), instant);
     }
 
-    /// More modes as soon as the shape needs them.
-    void resolve() {
-        if constexpr (spectral) {
-            const Meridian<double>& now = simulator_->configuration().shape;
-            double share = discretization_.unresolved(now);
-            if (!options_.elements && now.elements() < axistokes::most_elements<Discretization> &&
-                share > accuracy_.unresolved) {
-                simulator_->refine(axistokes::more_modes(now.elements(), share, accuracy_.unresolved,
-                                                         axistokes::most_elements<Discretization>));
-                share = discretization_.unresolved(now);
-            }
-            unresolved_ = std::max(unresolved_, share);
-        }
-    }
-
-    /// Throws SimulationFailure for a vesicle that does not move on, or whose membrane is about to pinch off.
-    void require_passable(double velocity) const {
+    /// Why a vesicle does not move on, or that its membrane is about to pinch off; empty if it does.
+    std::string obstacle(double velocity) {
+        std::ostringstream cause;
         constexpr double stuck = 1e-4;  // velocity over that of the flow in the throat
-        if (std::abs(velocity) < stuck * simulator_->scene().velocity_scale()) {
-            throw axistokes::SimulationFailure("the vesicle is stuck at z = " + std::to_string(position()) +
-                                               ": this flow rate does not press it through the throat");
-        }
-        const auto neck = thinnest_neck(simulator_->shape());
-        if (neck && neck->radius < neck->element / 2) {
-            std::ostringstream cause;
+        if (std::abs(velocity) < stuck * now().scene().velocity_scale()) {
+            cause << "the vesicle is stuck at z = " << position()
+                  << ": this flow rate does not press it through the throat";
+        } else if (const auto neck = thinnest_neck(now().shape()); neck && neck->radius < neck->element / 2) {
             cause << "the membrane pinches off at z = " << neck->z << ": the radius of its neck, " << neck->radius
                   << ", is less than half of an element there";
-            throw axistokes::SimulationFailure(cause.str());
         }
+        return cause.str();
     }
 
-    nlohmann::ordered_json summary() const {
+    nlohmann::ordered_json summary() {
         nlohmann::ordered_json summary;
         summary["passed"] = passed_;
         if (const auto transit = track_.time_between(profile_.begin(), profile_.end())) {
@@ -276,24 +272,25 @@ class PassageRun {
         summary["largest_pressure_drop"] = drop_;
         summary["critical_tube_radius"] = axistokes::critical_tube_radius(measures_.area, measures_.volume);
         summary["critical_orifice_radius"] = axistokes::critical_orifice_radius(measures_.area, measures_.volume);
-        if (!simulator_->history().empty()) {
-            const auto& last = simulator_->history().back();
+        if (!now().history().empty()) {
+            const auto& last = now().history().back();
             summary["area_drift"] = last.area_drift;
             summary["volume_drift"] = last.volume_drift;
             summary["steps"] = last.step;
             summary["time"] = last.time;
         }
-        summary["elements"] = simulator_->configuration().shape.elements();
+        summary["elements"] = now().configuration().shape.elements();
         options_.method.describe(summary);
-        if constexpr (spectral) {
+        if (spectral()) {
             // Largest on the way, of the shape; the time steps' errors come on top.
             const double error = unresolved_ / unresolved_to_error;
             summary["error_estimate"] = error;
             summary["error_met"] = error <= accuracy_.eps;
         }
         summary["flow_rate_deviation"] = deviation_;
-        summary["wall_nodes"] = simulator_->scene().wall().mesh()->curve().size();
-        summary["wall_meshes"] = simulator_->scene().wall().meshes();
+        const AnyWall::Mesh& wall = *now().scene().wall().mesh();
+        summary["wall_nodes"] = wall.mesh()->curve().size();
+        summary["wall_meshes"] = wall.meshes();
         summary["wall_seconds"] = seconds_;
         if (!failure_.empty()) {
             summary["failure"] = failure_;
@@ -302,19 +299,19 @@ class PassageRun {
         return summary;
     }
 
-    void write(const nlohmann::ordered_json& summary) const {
+    void write(const nlohmann::ordered_json& summary) {
         const std::filesystem::path directory(options_.directory);
         const Vector<double> z = Vector<double>::LinSpaced(400, 1.5 * start_, -1.5 * start_);
         axistokes::write_csv(directory / "frames.csv", frames_.columns());
         axistokes::write_csv(directory / "wall.csv",
                              std::vector<axistokes::Column<double>>{{"z", z}, {"r", wall_radii(profile_, z)}});
         axistokes::write_csv(directory / "shape.csv", shape_);
-        axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulator_->history()));
+        axistokes::write_csv(directory / "history.csv", axistokes::history_columns(now().history()));
         axistokes::write_atomically(directory / "summary.json",
                                     [&](std::ostream& out) { out << summary.dump(2) << '\n'; });
     }
 
-    int conclude() const {
+    int conclude() {
         const nlohmann::ordered_json results = summary();
         if (!options_.directory.empty()) {
             write(results);
@@ -334,10 +331,13 @@ class PassageRun {
     PassageOptions options_;
     Channel profile_;
     axistokes::Accuracy<double> accuracy_;
-    Discretization discretization_;
+    AnyDiscretization discretization_;
     axistokes::Measures<double> measures_;
     double start_ = 0;  // of the centroid
-    std::optional<Passage<Discretization>> simulator_;
+    std::optional<Driver> driver_;
+    const InterruptGuard* guard_ = nullptr;
+    ProgressBar* bar_ = nullptr;
+    Index kept_ = 0;  // frames
     Frames frames_;
     std::vector<axistokes::Column<double>> shape_;  // the last one
     Track track_;
@@ -349,5 +349,11 @@ class PassageRun {
     std::string failure_;
     bool passed_ = false;
 };
+
+}  // namespace
+
+int pass(const PassageOptions& options) {
+    return PassageRun(options)();
+}
 
 }  // namespace examples

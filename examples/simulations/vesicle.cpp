@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Runs a vesicle to its end, whatever that is: command line in, progress and files out; the rest is the library's
 // Driver.
-#pragma once
-
-#include "compiled.hpp"
-#include "progress.hpp"
-#include "run.hpp"
-#include "tube.hpp"
-#include "vesicle_case.hpp"
-#include <axistokes/accuracy/driver.hpp>
-#include <axistokes/wall/no_wall.hpp>
+#include "../support/progress.hpp"
+#include "../support/results.hpp"
+#include "../support/vesicle_case.hpp"
 
 #include <chrono>
 #include <numbers>
@@ -20,23 +14,18 @@
 
 namespace examples {
 
-template <class Discretization, class Kernel, class Wall>
+namespace {
+
 class VesicleRun {
     using Index = axistokes::Index;
     using Shape = axistokes::Meridian<double>;
-    using Simulator = axistokes::Simulator<Kernel, Discretization, axistokes::Vesicle<double>, Drive,
-                                           axistokes::ExtrapolatedEulerOfOrder, axistokes::DenseLU<double>, Wall>;
-    using Driver = axistokes::Driver<Simulator, CompiledSolver<typename Simulator::SceneType>>;
 
   public:
-    VesicleRun(const VesicleCase& c, Kernel kernel, Wall wall)
+    explicit VesicleRun(const VesicleCase& c)
         : case_(c),
           run_(c.run.resolved()),
           params_(run_.params()),
-          accuracy_(run_.method.accuracy()),
-          discretization_(axistokes::discretization_for<Discretization>(accuracy_)),
-          kernel_(std::move(kernel)),
-          wall_(std::move(wall)),
+          discretization_(discretization_for(run_.method)),
           frames_(run_.frame_times) {}
 
     int operator()() {
@@ -47,12 +36,12 @@ class VesicleRun {
         const InterruptGuard guard;
         ProgressBar bar;
         Approach approach(params_.tolerance);
-        Driver driver([&](Index elements) { return simulator(elements); }, run_.driver_params(),
-                      [&](const Simulator& s) {
+        Driver driver([&](Index elements) { return simulation(elements); }, run_.driver_params(),
+                      [&](const Simulation& s) {
                           observe(s, approach, bar);
                           return !guard.interrupted();
                       });
-        Ending<Simulator> ending;
+        Ending ending;
         try {
             driver.run();
         } catch (const axistokes::SimulationFailure& failure) {
@@ -61,16 +50,15 @@ class VesicleRun {
         bar.hide();
         ending.result = driver.result();
         ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        return conclude(driver.simulator(), ending, run_, frames_.frames(), summary(driver.simulator(), ending));
+        return conclude(driver.simulation(), ending, run_, frames_.frames(), summary(driver.simulation(), ending));
     }
 
   private:
-    static constexpr bool spectral = axistokes::JudgesItself<Discretization>;
-
     /// From the initial shape, of exact area and volume where they can be had.
-    Simulator simulator(Index elements) {
+    Simulation simulation(Index elements) {
         // What the initial shape lacks a run to a given time would never make up for.
         const double share = run_.transient() ? run_.driver_params().unresolved : 2e-2;
+        const bool spectral = discretization_.judges_itself();
         Shape shape = spectral && run_.adapts()
                           ? axistokes::resolved_nodes(discretization_, case_.initial, elements, share)
                           : axistokes::nodes_of(discretization_, case_.initial, elements);
@@ -79,30 +67,30 @@ class VesicleRun {
             discretization_.restore(exact, 4 * std::numbers::pi + case_.excess_area, 4 * std::numbers::pi / 3)) {
             shape = std::move(exact);
         }
-        Simulator simulator(typename Simulator::SceneType(kernel_, discretization_, axistokes::Vesicle<double>(),
-                                                          case_.drive, axistokes::DenseLU<double>(), wall_),
-                            run_.method.steps(params_.step_tolerance), shape, params_);
+        Simulation simulation(Scene(kernel_for(case_.surroundings, run_.method), discretization_, Law(Vesicle()),
+                                    case_.drive, Solver(), wall_for(case_.surroundings)),
+                              run_.method.steps(params_.step_tolerance), shape, params_);
         frames_ = FramesAt(run_.frame_times);
-        frames_.visit(0, simulator);
-        return simulator;
+        frames_.visit(0, simulation);
+        return simulation;
     }
 
-    void observe(const Simulator& simulator, Approach& approach, ProgressBar& bar) {
-        const auto& record = simulator.history().back();
+    void observe(const Simulation& simulation, Approach& approach, ProgressBar& bar) {
+        const auto& record = simulation.history().back();
         std::ostringstream text;
         text << "step " << record.step << "  time " << record.time << "  residual " << record.residual;
-        frames_.visit(record.time, simulator);
+        frames_.visit(record.time, simulation);
         const double by_time = record.time / params_.longest_time;
         const double by_steps = static_cast<double>(record.step) / static_cast<double>(params_.most_steps);
         bar.show(std::max({approach.fraction(record.residual), by_time, by_steps}), text.str());
     }
 
-    nlohmann::ordered_json summary(const Simulator& simulator, const Ending<Simulator>& ending) const {
-        nlohmann::ordered_json summary = summarize(simulator, ending);
+    nlohmann::ordered_json summary(const Simulation& simulation, const Ending& ending) const {
+        nlohmann::ordered_json summary = summarize(simulation, ending);
         run_.method.describe(summary);
         summary["method_stationary"] = run_.method.stationary;
         if (case_.surroundings.tube_radius) {
-            summary.update(tube_summary(simulator, ending, case_.mean_velocity));
+            summary.update(tube_summary(simulation, ending, case_.mean_velocity));
         }
         summary["parameters"] = case_.parameters;
         return summary;
@@ -111,25 +99,14 @@ class VesicleRun {
     VesicleCase case_;
     RunOptions run_;
     axistokes::SimulationParams<double> params_;
-    std::optional<axistokes::Accuracy<double>> accuracy_;
-    Discretization discretization_;
-    Kernel kernel_;
-    Wall wall_;
+    AnyDiscretization discretization_;
     FramesAt frames_;
 };
 
-/// Without a meshed wall.
-template <class Discretization>
-int run_in(const VesicleCase& c) {
-    const auto accuracy = c.run.method.accuracy();
-    return VesicleRun<Discretization, OptionalTubeKernel, axistokes::NoWall>(
-        c, c.surroundings.kernel(accuracy ? std::optional(accuracy->kernel) : std::nullopt), {})();
-}
+}  // namespace
 
-template <class Discretization>
-int run_in_mesh(const VesicleCase& c) {
-    return VesicleRun<Discretization, axistokes::FreeSpaceKernel<double>,
-                      axistokes::WallMesh<axistokes::StraightTube<double>>>(c, {}, c.surroundings.mesh())();
+int run_vesicle(const VesicleCase& c) {
+    return VesicleRun(c)();
 }
 
 }  // namespace examples

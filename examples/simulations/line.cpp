@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Follows bodies in line and writes what came of them.
-#pragma once
-
-#include "compiled.hpp"
-#include "line_case.hpp"
-#include "progress.hpp"
-#include "run.hpp"
-#include <axistokes/accuracy/driver.hpp>
-#include <axistokes/wall/no_wall.hpp>
+#include "../support/exit_code.hpp"
+#include "../support/line_case.hpp"
+#include "../support/progress.hpp"
+#include "../support/results.hpp"
 
 #include <chrono>
 #include <filesystem>
@@ -17,6 +13,8 @@
 #include <vector>
 
 namespace examples {
+
+namespace {
 
 /// Shapes of all bodies kept on the way, one row a node.
 class LineFrames {
@@ -47,17 +45,10 @@ class LineFrames {
     std::vector<std::vector<double>> columns_ = std::vector<std::vector<double>>(5);
 };
 
-template <class Discretization>
 class LineRun {
-    using Law = axistokes::OneOf<axistokes::Vesicle<double>, axistokes::RigidBody<double>>;
-    using Simulator = axistokes::Simulator<OptionalTubeKernel, Discretization, Law, Drive,
-                                           axistokes::ExtrapolatedEulerOfOrder, axistokes::DenseLU<double>>;
-
   public:
     explicit LineRun(const LineCase& c)
-        : case_(c),
-          run_(c.run.resolved()),
-          discretization_(axistokes::discretization_for<Discretization>(run_.method.accuracy())) {}
+        : case_(c), run_(c.run.resolved()), discretization_(discretization_for(run_.method)) {}
 
     int operator()() {
         if (!run_.directory.empty()) {
@@ -67,15 +58,14 @@ class LineRun {
         const InterruptGuard guard;
         ProgressBar bar;
         const double duration = run_.time.value_or(0);
-        axistokes::Driver<Simulator, void> driver([&](axistokes::Index elements) { return simulator(elements); },
-                                                  run_.driver_params(),
-                                                  [&](const Simulator& s) {
-                                                      std::ostringstream text;
-                                                      text << "step " << s.history().size() << "  time " << s.time();
-                                                      bar.show(duration > 0 ? s.time() / duration : 1, text.str());
-                                                      visit(s, duration);
-                                                      return !guard.interrupted();
-                                                  });
+        Driver driver([&](axistokes::Index elements) { return simulation(elements); }, run_.driver_params(),
+                      [&](const Simulation& s) {
+                          std::ostringstream text;
+                          text << "step " << s.history().size() << "  time " << s.time();
+                          bar.show(duration > 0 ? s.time() / duration : 1, text.str());
+                          visit(s, duration);
+                          return !guard.interrupted();
+                      });
         std::string failure;
         try {
             driver.run();
@@ -88,7 +78,7 @@ class LineRun {
     }
 
   private:
-    Simulator simulator(axistokes::Index elements) {
+    Simulation simulation(axistokes::Index elements) {
         const double share = case_.spheres ? 1 : run_.driver_params().unresolved;
         const auto shape = run_.adapts() ? axistokes::resolved_nodes(discretization_, case_.initial, elements, share)
                                          : axistokes::nodes_of(discretization_, case_.initial, elements);
@@ -97,47 +87,42 @@ class LineRun {
             const double place = (static_cast<double>(b) - static_cast<double>(case_.count - 1) / 2) * case_.distance;
             shapes.push_back(axistokes::detail::shifted(shape, place));
         }
-        axistokes::RigidBody<double> sphere;
+        RigidBody sphere;
         if (case_.dragged) {
             sphere.velocity = 1;
         }
-        const auto accuracy = run_.method.accuracy();
-        const auto kernel = case_.surroundings.kernel(accuracy ? std::optional(accuracy->kernel) : std::nullopt);
         const auto params = run_.params();
-        Simulator simulator(
-            typename Simulator::SceneType(kernel, discretization_,
-                                          case_.spheres ? Law(sphere) : Law(axistokes::Vesicle<double>()), case_.drive,
-                                          axistokes::DenseLU<double>()),
-            run_.method.steps(params.step_tolerance), shapes, params);
+        Simulation simulation(Scene(kernel_for(case_.surroundings, run_.method), discretization_,
+                                    case_.spheres ? Law(sphere) : Law(Vesicle()), case_.drive, Solver(), AnyWall()),
+                              run_.method.steps(params.step_tolerance), shapes, params);
         frames_ = LineFrames();
         kept_ = 0;
-        visit(simulator, run_.time.value_or(0));
-        return simulator;
+        visit(simulation, run_.time.value_or(0));
+        return simulation;
     }
 
-    void visit(const Simulator& simulator, double duration) {
+    void visit(const Simulation& simulation, double duration) {
         const double due = static_cast<double>(kept_) / static_cast<double>(case_.frames - 1) * duration;
-        if (kept_ >= case_.frames || simulator.time() < due * (1 - 1e-12)) {
+        if (kept_ >= case_.frames || simulation.time() < due * (1 - 1e-12)) {
             return;
         }
-        for (std::size_t b = 0; b < simulator.bodies(); ++b) {
-            frames_.add(simulator.time(), b, drawn_curve(discretization_, simulator.shape(b)));
+        for (std::size_t b = 0; b < simulation.bodies(); ++b) {
+            frames_.add(simulation.time(), b, drawn_curve(discretization_, simulation.shape(b)));
         }
         frames_.next();
         ++kept_;
     }
 
-    template <class Driver>
     int conclude(Driver& driver, const std::string& failure, double seconds) {
-        Simulator& simulator = driver.simulator();
+        Simulation& simulation = driver.simulation();
         const auto& result = driver.result();
         nlohmann::ordered_json bodies = nlohmann::ordered_json::array();
         double drop = 0;
         bool known = true;
-        for (std::size_t b = 0; b < simulator.bodies(); ++b) {
-            const auto& configuration = simulator.configuration(b);
+        for (std::size_t b = 0; b < simulation.bodies(); ++b) {
+            const auto& configuration = simulation.configuration(b);
             const auto& shape = configuration.shape;
-            const auto film = simulator.scene().film_thickness(simulator.state(), b);
+            const auto film = simulation.scene().film_thickness(simulation.state(), b);
             nlohmann::ordered_json body{{"position", configuration.position},
                                         {"length", shape.z[shape.nodes() - 1] - shape.z[0]},
                                         {"max_radius", discretization_.max_radius(shape)},
@@ -150,7 +135,7 @@ class LineRun {
                 body["neighbour_distance"] = film.to_neighbour;
             }
             try {
-                const auto& instant = simulator.instant(b);
+                const auto& instant = simulation.instant(b);
                 body["velocity"] = instant.velocity;
                 body["pressure_drop"] = instant.pressure_drop;
                 drop += instant.pressure_drop;
@@ -167,8 +152,8 @@ class LineRun {
         nlohmann::ordered_json summary{
             {"bodies", bodies},
             {"stationary", result.stationary},
-            {"time", simulator.time()},
-            {"steps", simulator.history().size()},
+            {"time", simulation.time()},
+            {"steps", simulation.history().size()},
             {"wall_seconds", seconds},
             {"error_estimate", std::isfinite(result.error_estimate) ? nlohmann::ordered_json(result.error_estimate)
                                                                     : nlohmann::ordered_json(nullptr)},
@@ -186,7 +171,7 @@ class LineRun {
             summary["interrupted"] = true;
         }
         summary["parameters"] = case_.parameters;
-        write(simulator, summary);
+        write(simulation, summary);
         print_bodies(summary);
         if (!failure.empty()) {
             throw axistokes::SimulationFailure(failure);
@@ -194,23 +179,23 @@ class LineRun {
         return result.interrupted ? interrupted : success;
     }
 
-    void write(Simulator& simulator, const nlohmann::ordered_json& summary) {
+    void write(Simulation& simulation, const nlohmann::ordered_json& summary) {
         if (run_.directory.empty()) {
             return;
         }
         const std::filesystem::path directory(run_.directory);
-        for (std::size_t b = 0; b < simulator.bodies(); ++b) {
-            std::optional<typename Simulator::InstantType> instant;
+        for (std::size_t b = 0; b < simulation.bodies(); ++b) {
+            std::optional<Simulation::InstantType> instant;
             try {
-                instant = simulator.instant(b);
+                instant = simulation.instant(b);
             } catch (const axistokes::SimulationFailure&) {
                 // Then the nodes alone.
             }
             const std::string number = "_" + std::to_string(b);
             axistokes::write_csv(directory / ("shape" + number + ".csv"),
-                                 last_shape_columns(simulator.configuration(b), instant));
+                                 last_shape_columns(simulation.configuration(b), instant));
             axistokes::write_csv(directory / ("history" + number + ".csv"),
-                                 axistokes::history_columns(simulator.history(b)));
+                                 axistokes::history_columns(simulation.history(b)));
         }
         axistokes::write_csv(directory / "frames.csv", frames_.columns());
         axistokes::write_atomically(directory / "summary.json",
@@ -230,9 +215,15 @@ class LineRun {
 
     LineCase case_;
     RunOptions run_;
-    Discretization discretization_;
+    AnyDiscretization discretization_;
     LineFrames frames_;
     axistokes::Index kept_ = 0;
 };
+
+}  // namespace
+
+int run_line(const LineCase& c) {
+    return LineRun(c)();
+}
 
 }  // namespace examples

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "../support/simulation.hpp"
+
+namespace examples {
+
+Newton::Newton(const Scene& scene, const Params& params) : solver_(std::make_unique<Solver>(scene, params)) {}
+
+Newton::~Newton() = default;
+
+Newton::State Newton::solve(const axistokes::Meridian<double>& shape, double area, double volume) {
+    return solver_->solve(shape, area, volume);
+}
+
+std::vector<std::complex<double>> Newton::growth_rates(const State& state) {
+    return solver_->growth_rates(state);
+}
+
+}  // namespace examples

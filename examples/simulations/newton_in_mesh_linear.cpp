@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "../support/compile_solver.hpp"
-
-template class examples::CompiledSolver<examples::MeshedScene<examples::LinearElements>>;

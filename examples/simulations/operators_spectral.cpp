@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "../support/compile_operators.hpp"
-
-template class examples::Compiled<axistokes::SpectralMeridian<double>>;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What a run came to: a summary in a few numbers, on the screen and as JSON, and tables.
+#pragma once
+
+#include "driver.hpp"
+#include "frames.hpp"
+#include "options.hpp"
+#include <axistokes/io/csv.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace examples {
+
+struct Ending {
+    Driver::Result result;
+    std::string failure;  // the cause, or empty
+    double wall_seconds = 0;
+};
+
+/// The last shape as a table. Without an instant (the shape may be the cause of a failure) at least the nodes.
+std::vector<axistokes::Column<double>> last_shape_columns(const axistokes::Configuration<double>& configuration,
+                                                          const std::optional<Simulation::InstantType>& instant);
+
+/// Keys that every run has. The estimate is null where there is none: the JSON format has no infinity.
+nlohmann::ordered_json summarize(const Simulation& simulation, const Ending& ending);
+
+/// Of a particle in a tube (docs/gallery.md, "The summary of a scene in a tube"): the film (R0), the pressure drop that
+/// the particle adds (kappa/R0^3) and, in a flow of the given mean velocity V, that drop in eta V/Rc, the mobility U/V,
+/// the ratio of tube to discharge haematocrit V/U, the viscosity relative to the fluid's of a piece of tube as long as
+/// the particle, and the intrinsic one (the relative increase over the volume fraction, whatever the length); of a
+/// meshed wall also its panels, without those on the ends, and all its nodes.
+nlohmann::ordered_json tube_summary(const Simulation& simulation, const Ending& ending, double mean_velocity);
+
+/// A summary as aligned lines: first how the run ended, then the numbers.
+void print(const nlohmann::ordered_json& summary, const std::string& directory);
+
+/// Writes and prints; the exit code. Throws SimulationFailure if the run ended with one.
+/// summary.json, shape.csv, history.csv and what else was asked for are written; nothing without a directory.
+int conclude(const Simulation& simulation, const Ending& ending, const RunOptions& options, const Frames& frames,
+             const nlohmann::ordered_json& summary);
+
+}  // namespace examples
