@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What accuracy costs: the single layer against its quadrature tolerance, and a stationary vesicle against the number
 // of elements (docs/validation.md).
+#include "support/command_line.hpp"
 #include "support/report.hpp"
 #include <axistokes/axistokes.hpp>
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -109,15 +108,14 @@ void vesicle_table(const std::string& directory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Error and cost of the quadrature tolerance and of the number of elements (settling vesicle)"};
+    examples::CommandLine app{
+        "accuracy_study",
+        "Error and cost of the quadrature tolerance and of the number of elements (settling vesicle)"};
     std::string directory;
-    app.add_option("--out", directory, "directory that receives quadrature.csv and vesicle.csv");
-    CLI11_PARSE(app, argc, argv);
-    try {
+    app.text("--out", directory, "directory that receives quadrature.csv and vesicle.csv");
+    return app.run(argc, argv, [&] {
         quadrature_table(directory);
         vesicle_table(directory);
-    } catch (const std::exception& error) {
-        std::cerr << "accuracy_study: " << error.what() << '\n';
-        return EXIT_FAILURE;
-    }
+        return 0;
+    });
 }

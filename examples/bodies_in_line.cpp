@@ -5,7 +5,7 @@
 #include "support/line_case.hpp"
 
 int main(int argc, char** argv) {
-    CLI::App app{"Equal bodies in line along the axis of an unbounded fluid or a tube"};
+    examples::CommandLine app{"bodies_in_line", "Equal bodies in line along the axis of an unbounded fluid or a tube"};
     examples::LineCase c;
     std::string kind = "vesicle";
     examples::TubeOptions tube;
@@ -13,29 +13,29 @@ int main(int argc, char** argv) {
     double capillary_number = 0;
     double unbounded_capillary_number = 0;
     std::optional<double> time;
-    app.add_option("--kind", kind, "sphere (rigid) or vesicle")->capture_default_str();
-    examples::add_number(app, "--count", c.count, "number of bodies");
-    examples::add_number(app, "--distance", c.distance, "from centre to centre, in R0");
+    app.text("--kind", kind, "sphere (rigid) or vesicle");
+    app.number("--count", c.count, "number of bodies");
+    app.number("--distance", c.distance, "from centre to centre, in R0");
     c.vesicle.add_to(app);
     tube.add_to(app, "the fluid is unbounded");
-    CLI::Option* by_bond = examples::add_number(app, "--bond", bond, "Bond number: the bodies settle along -z");
-    CLI::Option* bounded = examples::add_number(app, "--capillary-number", capillary_number,
-                                                "Ca of the Poiseuille flow in the tube (with --confinement)");
-    CLI::Option* unbounded = examples::add_number(app, "--unbounded-capillary-number", unbounded_capillary_number,
-                                                  "Ca_unb of the flow -c r^2 without walls");
-    by_bond->excludes(bounded)->excludes(unbounded);
-    bounded->excludes(unbounded)->needs("--confinement");
-    unbounded->excludes("--confinement");
-    examples::add_number(app, "--elements", c.run.elements,
-                         "elements, or modes, on each meridian (default: as many as the accuracy takes)");
-    examples::add_number(app, "--time", time, "how long to follow the bodies (default: vesicles 1, spheres 0)");
-    examples::add_number(app, "--step-tolerance", c.run.step_tolerance, "error allowed in a time step, in R0");
-    examples::add_number(app, "--max-steps", c.run.steps, "stop after this many steps");
-    app.add_option("--frames", c.frames, "shapes kept in frames.csv, equally spaced in time")->capture_default_str();
+    examples::Option by_bond = app.number("--bond", bond, "Bond number: the bodies settle along -z");
+    examples::Option bounded = app.number("--capillary-number", capillary_number,
+                                          "Ca of the Poiseuille flow in the tube (with --confinement)");
+    examples::Option unbounded = app.number("--unbounded-capillary-number", unbounded_capillary_number,
+                                            "Ca_unb of the flow -c r^2 without walls");
+    by_bond.excludes(bounded).excludes(unbounded);
+    bounded.excludes(unbounded).needs("--confinement");
+    unbounded.excludes("--confinement");
+    app.number("--elements", c.run.elements,
+               "elements, or modes, on each meridian (default: as many as the accuracy takes)");
+    app.number("--time", time, "how long to follow the bodies (default: vesicles 1, spheres 0)");
+    app.number("--step-tolerance", c.run.step_tolerance, "error allowed in a time step, in R0");
+    app.number("--max-steps", c.run.steps, "stop after this many steps");
+    app.number("--frames", c.frames, "shapes kept in frames.csv, equally spaced in time");
     c.run.method.add_to(app);
     c.run.add_output_to(app);
 
-    return examples::run_program("bodies_in_line", app, argc, argv, [&] {
+    return app.run(argc, argv, [&] {
         using axistokes::detail::require;
         require(kind == "sphere" || kind == "vesicle", "kind", kind, "sphere or vesicle");
         require(c.count >= 1 && c.count <= 100, "count", c.count, "in [1, 100]");
@@ -56,14 +56,14 @@ int main(int argc, char** argv) {
         if (tube.confinement) {
             c.surroundings.tube_radius = tube.radius();
         }
-        c.dragged = c.spheres && by_bond->count() + bounded->count() + unbounded->count() == 0;
-        if (by_bond->count() > 0) {
+        c.dragged = c.spheres && !by_bond.given() && !bounded.given() && !unbounded.given();
+        if (by_bond.given()) {
             c.drive = examples::Drive(axistokes::Gravity<double>(bond));
-        } else if (bounded->count() > 0) {
+        } else if (bounded.given()) {
             const axistokes::Poiseuille<double> flow(capillary_number, tube.radius());
             c.drive = examples::Drive(flow);
             c.mean_velocity = flow.mean_velocity();
-        } else if (unbounded->count() > 0) {
+        } else if (unbounded.given()) {
             c.drive = examples::Drive(axistokes::UnboundedPoiseuille<double>(unbounded_capillary_number));
         }
         const auto shape = [&](axistokes::Index elements) {

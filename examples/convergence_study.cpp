@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stationary shapes against the number of elements, with the observed order and the cost, and minimal bending energies
 // (docs/validation.md).
-#include "support/program.hpp"
+#include "support/command_line.hpp"
 #include "support/report.hpp"
 #include <axistokes/axistokes.hpp>
 
@@ -123,11 +123,12 @@ void relaxation_table(const std::string& directory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{
+    examples::CommandLine app{
+        "convergence_study",
         "Convergence of stationary vesicles (settling, Poiseuille flow, relaxation) in the number of elements"};
     std::string directory;
-    app.add_option("--out", directory, "directory that receives the tables as CSV files");
-    return examples::run_program("convergence_study", app, argc, argv, [&] {
+    app.text("--out", directory, "directory that receives the tables as CSV files");
+    return app.run(argc, argv, [&] {
         std::cout << std::setprecision(8);
         convergence_table(directory, "settling", Gravity<double>(47));
         convergence_table(directory, "poiseuille", UnboundedPoiseuille<double>(0.5));

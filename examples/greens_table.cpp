@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Tabulates the ring Green function M for the target-source pairs of a CSV file; inside a tube, the wall's correction C
 // and the total T = M + C too.
+#include "support/command_line.hpp"
 #include "support/csv_input.hpp"
-#include "support/program.hpp"
 #include <axistokes/io/atomic_file.hpp>
 #include <axistokes/kernel/tube.hpp>
 
@@ -106,7 +106,8 @@ void write_rows(std::ostream& out, const std::vector<Row>& rows, bool in_tube) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{
+    examples::CommandLine app{
+        "greens_table",
         "Tabulates the axisymmetric Green function M_ab(x0, x) of free space, without its factor 1/(8 pi); with\n"
         "--tube-radius also the correction C by a tube's wall and the total T = M + C"};
     std::string input;
@@ -114,13 +115,11 @@ int main(int argc, char** argv) {
     std::optional<double> tube_radius;
     TubeKernel<double>::Params params;
     params.tolerance = 1e-12;
-    app.add_option("--input", input, "CSV file with a header line and the columns r0, z0 (target), r, z (source)")
-        ->required();
-    app.add_option("--out", directory, "directory that receives greens.csv; created if missing")->required();
-    examples::add_number(app, "--tube-radius", tube_radius, "radius of the tube around the axis");
-    examples::add_number(app, "--tolerance", params.tolerance,
-                         "error allowed of C, relative to the free-space velocity");
-    return examples::run_program("greens_table", app, argc, argv, [&] {
+    app.text("--input", input, "CSV file with a header line and the columns r0, z0 (target), r, z (source)").required();
+    app.text("--out", directory, "directory that receives greens.csv; created if missing").required();
+    app.number("--tube-radius", tube_radius, "radius of the tube around the axis");
+    app.number("--tolerance", params.tolerance, "error allowed of C, relative to the free-space velocity");
+    return app.run(argc, argv, [&] {
         const Tube tube = tube_radius ? Tube(TubeKernel<double>(*tube_radius, params)) : std::nullopt;
         const std::vector<Row> rows = read_rows(input, tube);
         axistokes::write_atomically(fs::path(directory) / "greens.csv",

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A vesicle on the axis of a Poiseuille flow: in a tube, or in the middle of one so wide that its walls do not matter.
 #include "support/command_line.hpp"
+#include "support/tube.hpp"
 #include "support/vesicle_case.hpp"
 #include "support/wall.hpp"
 
 int main(int argc, char** argv) {
-    CLI::App app{
+    examples::CommandLine app{
+        "poiseuille_vesicle",
         "An axisymmetric vesicle in Poiseuille flow: u_z = Ca (1 - (L r)^2) in a tube (--capillary-number,\n"
         "--confinement), or -Ca_unb r^2 without walls (--unbounded-capillary-number)"};
     examples::VesicleOptions vesicle;
@@ -17,20 +19,20 @@ int main(int argc, char** argv) {
     double capillary_number = 100;
     double unbounded_capillary_number = 0.5;
     vesicle.add_to(app);
-    CLI::Option* bounded = examples::add_number(app, "--capillary-number", capillary_number,
-                                                "Ca = eta u_max R0^2 / kappa of the flow in the tube");
+    examples::Option bounded =
+        app.number("--capillary-number", capillary_number, "Ca = eta u_max R0^2 / kappa of the flow in the tube");
     tube.add_to(app, "1/0.9");
-    CLI::Option* unbounded = examples::add_number(app, "--unbounded-capillary-number", unbounded_capillary_number,
-                                                  "Ca_unb = eta c R0^4 / kappa of the flow -c r^2 without walls");
+    examples::Option unbounded = app.number("--unbounded-capillary-number", unbounded_capillary_number,
+                                            "Ca_unb = eta c R0^4 / kappa of the flow -c r^2 without walls");
     wall.add_to(app);
-    examples::add_number(app, "--wall-tolerance", wall_tolerance,
-                         "with --method wall: relative error allowed of the wall (default: 1e-5)");
-    unbounded->excludes(bounded)->excludes("--confinement")->excludes("--method");
+    app.number("--wall-tolerance", wall_tolerance,
+               "with --method wall: relative error allowed of the wall (default: 1e-5)");
+    unbounded.excludes(bounded).excludes("--confinement").excludes("--method");
     run.add_to(app);
 
-    return examples::run_program("poiseuille_vesicle", app, argc, argv, [&] {
+    return app.run(argc, argv, [&] {
         run.method.check();
-        if (unbounded->count() > 0) {
+        if (unbounded.given()) {
             const auto initial = [&](axistokes::Index elements) { return vesicle.shape(elements); };
             const axistokes::UnboundedPoiseuille<double> flow(unbounded_capillary_number);
             examples::VesicleCase c{run, initial, vesicle.excess_area, examples::Drive(flow), {}, 0, {}};

@@ -8,21 +8,22 @@
 
 int main(int argc, char** argv) {
     using axistokes::detail::require;
-    CLI::App app{"An axisymmetric vesicle relaxes, without flow, to the shape of least bending energy near its own"};
+    examples::CommandLine app{
+        "relaxing_vesicle",
+        "An axisymmetric vesicle relaxes, without flow, to the shape of least bending energy near its own"};
     examples::VesicleOptions vesicle;
     examples::RunOptions run;
     double reduced_volume = 0.8;
     vesicle.add_kind_to(app);
-    CLI::Option* by_volume =
-        examples::add_number(app, "--reduced-volume", reduced_volume, "volume over that of the sphere of equal area");
-    CLI::Option* by_area =
-        examples::add_number(app, "--excess-area", vesicle.excess_area, "instead: area minus 4 pi, in R0^2");
-    by_area->excludes(by_volume)->default_str("");
+    examples::Option by_volume =
+        app.number("--reduced-volume", reduced_volume, "volume over that of the sphere of equal area");
+    examples::Option by_area = app.number("--excess-area", vesicle.excess_area, "instead: area minus 4 pi, in R0^2");
+    by_area.excludes(by_volume).without_default();
     run.add_to(app);
 
-    return examples::run_program("relaxing_vesicle", app, argc, argv, [&] {
+    return app.run(argc, argv, [&] {
         run.method.check();
-        if (by_area->count() == 0) {
+        if (!by_area.given()) {
             require(reduced_volume > 0 && reduced_volume <= 1, "reduced volume", reduced_volume, "in (0, 1]");
             vesicle.excess_area = 4 * std::numbers::pi * (std::pow(reduced_volume, -2.0 / 3) - 1);
         }

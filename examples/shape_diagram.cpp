@@ -2,7 +2,7 @@
 // Stationary shapes of vesicles in tube flow over a table of cases: bullet or parachute, and whether both are stable
 // (docs/shape_diagram.md).
 #include "support/cases.hpp"
-#include "support/program.hpp"
+#include "support/command_line.hpp"
 #include <axistokes/discretization/spectral_meridian.hpp>
 #include <axistokes/flow/poiseuille.hpp>
 #include <axistokes/geometry/tube_shapes.hpp>
@@ -263,7 +263,8 @@ void write_shapes(const std::filesystem::path& directory, const Case& c, const s
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{
+    examples::CommandLine app{
+        "shape_diagram",
         "Stationary vesicles in the tube flow u_z = Ca (1 - (L r)^2), from several starts: one row for\n"
         "each state of a case, written when it is known. Cases that the output has already are left out"};
     std::string input;
@@ -272,25 +273,25 @@ int main(int argc, char** argv) {
     examples::Range reduced_volume(0.7, 0.98, 8);
     double capillary_number = 10;
     Settings settings;
-    auto* cases = app.add_option("--cases", input,
-                                 "CSV file with columns confinement (R0 over the tube's radius), reduced_volume and "
-                                 "capillary_number");
-    confinement.add_to(app, "--confinement", "R0 over the tube's radius")->excludes(cases);
-    reduced_volume.add_to(app, "--reduced-volume", "volume over that of the sphere of equal area")->excludes(cases);
-    examples::add_number(app, "--capillary-number", capillary_number, "Ca = eta u_max R0^2 / kappa")->excludes(cases);
-    examples::add_number(app, "--elements", settings.elements, "modes to begin with");
-    examples::add_number(app, "--max-elements", settings.most_elements, "modes to end with, at most");
-    examples::add_number(app, "--unresolved", settings.unresolved, "share of the slope in the last quarter of modes");
-    examples::add_number(app, "--tolerance", settings.tolerance, "residual");
-    app.add_option("--shapes", settings.shapes, "directory that receives the shapes, a file each");
-    app.add_option("--out", directory, "directory that receives diagram.csv; created if missing")->required();
-    return examples::run_program("shape_diagram", app, argc, argv, [&] {
+    auto* cases = app.text("--cases", input,
+                           "CSV file with columns confinement (R0 over the tube's radius), reduced_volume and "
+                           "capillary_number");
+    confinement.add_to(app, "--confinement", "R0 over the tube's radius").excludes(cases);
+    reduced_volume.add_to(app, "--reduced-volume", "volume over that of the sphere of equal area").excludes(cases);
+    app.number("--capillary-number", capillary_number, "Ca = eta u_max R0^2 / kappa").excludes(cases);
+    app.number("--elements", settings.elements, "modes to begin with");
+    app.number("--max-elements", settings.most_elements, "modes to end with, at most");
+    app.number("--unresolved", settings.unresolved, "share of the slope in the last quarter of modes");
+    app.number("--tolerance", settings.tolerance, "residual");
+    app.text("--shapes", settings.shapes, "directory that receives the shapes, a file each");
+    app.text("--out", directory, "directory that receives diagram.csv; created if missing").required();
+    return app.run(argc, argv, [&] {
         detail::require(settings.elements >= 24, "elements", settings.elements, "at least 24");
         detail::require(settings.most_elements <= 400, "max-elements", settings.most_elements, "at most 400");
         detail::require(settings.unresolved > 0, "unresolved", settings.unresolved, "> 0");
         const std::vector<Case> wanted =
-            cases->count() > 0 ? examples::read_cases(input)
-                               : examples::grid(confinement.values(), reduced_volume.values(), capillary_number);
+            cases.given() ? examples::read_cases(input)
+                          : examples::grid(confinement.values(), reduced_volume.values(), capillary_number);
         examples::CaseTable table(std::filesystem::path(directory) / "diagram.csv", kHeader);
         Diagram diagram(settings);
         std::size_t done = 0;

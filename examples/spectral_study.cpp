@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Convergence of the spectral discretisation: bending force, translating spheroid, sphere in a tube, and stationary
 // vesicles against the number of modes (docs/spectral.md).
+#include "support/command_line.hpp"
 #include "support/report.hpp"
 #include <axistokes/axistokes.hpp>
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -119,14 +118,11 @@ void study(const std::string& directory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Error of the spectral discretisation against the number of modes"};
+    examples::CommandLine app{"spectral_study", "Error of the spectral discretisation against the number of modes"};
     std::string directory;
-    app.add_option("--out", directory, "directory that receives spheroid.csv, tube.csv and stationary.csv");
-    CLI11_PARSE(app, argc, argv);
-    try {
+    app.text("--out", directory, "directory that receives spheroid.csv, tube.csv and stationary.csv");
+    return app.run(argc, argv, [&] {
         study(directory);
-    } catch (const std::exception& error) {
-        std::cerr << "spectral_study: " << error.what() << '\n';
-        return EXIT_FAILURE;
-    }
+        return 0;
+    });
 }

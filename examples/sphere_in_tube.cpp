@@ -3,6 +3,7 @@
 // flow; the traction along the meridian.
 #include "support/body_case.hpp"
 #include "support/command_line.hpp"
+#include "support/tube.hpp"
 #include "support/wall.hpp"
 #include <axistokes/io/csv.hpp>
 
@@ -33,24 +34,23 @@ void write_traction(const examples::RunOptions& run, const examples::BodyMotion&
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"A rigid sphere of radius R0 on the axis of a tube"};
+    examples::CommandLine app{"sphere_in_tube", "A rigid sphere of radius R0 on the axis of a tube"};
     examples::RunOptions run;
     examples::TubeOptions tube;
     std::string flow = "none";
     examples::WallOptions wall;
     std::optional<double> tolerance;
     tube.add_to(app, "0.5");
-    examples::add_number(app, "--elements", run.elements,
-                         "elements, or modes, on the meridian (default: spectral 32, linear 64, with filon 16; with "
-                         "--preset-accuracy as many as it takes)");
-    app.add_option("--flow", flow, "none: it is dragged along; poiseuille: it floats freely")->capture_default_str();
+    app.number("--elements", run.elements,
+               "elements, or modes, on the meridian (default: spectral 32, linear 64, with filon 16; with "
+               "--preset-accuracy as many as it takes)");
+    app.text("--flow", flow, "none: it is dragged along; poiseuille: it floats freely");
     wall.add_to(app, true);
-    examples::add_number(app, "--tolerance", tolerance,
-                         "of the quadratures and of the tube kernel or the wall (default: 1e-8)");
+    app.number("--tolerance", tolerance, "of the quadratures and of the tube kernel or the wall (default: 1e-8)");
     run.method.add_to(app, true);
     run.add_output_to(app);
 
-    return examples::run_program("sphere_in_tube", app, argc, argv, [&] {
+    return app.run(argc, argv, [&] {
         tube.confinement = tube.confinement.value_or(0.5);
         const double radius = tube.radius();
         detail::require(radius > 1, "confinement", *tube.confinement, "< 1, that is the sphere must fit into the tube");

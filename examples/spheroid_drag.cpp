@@ -35,27 +35,26 @@ double analytic_drag(double a, double c) {
 
 int main(int argc, char** argv) {
     using axistokes::Index;
-    CLI::App app{
+    examples::CommandLine app{
+        "spheroid_drag",
         "A rigid spheroid of volume 4 pi/3 on the axis of an unbounded fluid or a tube: its drag, or, with --flow\n"
         "poiseuille, its velocity when it floats freely"};
     examples::RunOptions run;
     examples::TubeOptions tube;
     double aspect = 2;
     std::string flow = "none";
-    examples::add_number(app, "--aspect", aspect, "polar over equatorial semi-axis (> 1: prolate)");
+    app.number("--aspect", aspect, "polar over equatorial semi-axis (> 1: prolate)");
     tube.add_to(app, "the fluid is unbounded");
-    CLI::Option* floats =
-        app.add_option("--flow", flow, "none: it is dragged along; poiseuille (in a tube): it floats freely")
-            ->capture_default_str();
-    floats->needs("--confinement");
-    examples::add_number(
-        app, "--elements", run.elements,
-        "elements, or modes, on the meridian (default: spectral 32, linear 64; with --preset-accuracy as many "
-        "as it takes)");
+    examples::Option floats =
+        app.text("--flow", flow, "none: it is dragged along; poiseuille (in a tube): it floats freely");
+    floats.needs("--confinement");
+    app.number("--elements", run.elements,
+               "elements, or modes, on the meridian (default: spectral 32, linear 64; with --preset-accuracy as many "
+               "as it takes)");
     run.method.add_to(app, true);
     run.add_output_to(app);
 
-    return examples::run_program("spheroid_drag", app, argc, argv, [&] {
+    return app.run(argc, argv, [&] {
         using axistokes::detail::require;
         run.method.check();
         require(flow == "none" || flow == "poiseuille", "flow", flow, "none or poiseuille");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stationary states by Newton's method against time marching from the same start: agreement, evaluations and time, and
 // growth rates from the linearisation against those by differences (docs/stationary.md).
+#include "support/command_line.hpp"
 #include "support/report.hpp"
 #include <axistokes/discretization/linear_elements.hpp>
 #include <axistokes/discretization/spectral_meridian.hpp>
@@ -17,12 +18,8 @@
 #include <axistokes/stationary/stationary_solver.hpp>
 #include <axistokes/time/semi_implicit_euler.hpp>
 
-#include <CLI/CLI.hpp>
-
 #include <cmath>
-#include <cstdlib>
 #include <ctime>
-#include <exception>
 #include <iostream>
 #include <string>
 
@@ -144,16 +141,13 @@ void study(const std::string& directory, bool film) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Stationary states by Newton's method against time marching"};
+    examples::CommandLine app{"stationary_study", "Stationary states by Newton's method against time marching"};
     std::string directory;
-    app.add_option("--out", directory, "directory that receives newton.csv and equal_accuracy.csv");
+    app.text("--out", directory, "directory that receives newton.csv and equal_accuracy.csv");
     bool film = false;
-    app.add_flag("--film", film, "only the vesicle of the paper's Fig. 15, whose film is thin: takes minutes");
-    CLI11_PARSE(app, argc, argv);
-    try {
+    app.flag("--film", film, "only the vesicle of the paper's Fig. 15, whose film is thin: takes minutes");
+    return app.run(argc, argv, [&] {
         study(directory, film);
-    } catch (const std::exception& error) {
-        std::cerr << "stationary_study: " << error.what() << '\n';
-        return EXIT_FAILURE;
-    }
+        return 0;
+    });
 }

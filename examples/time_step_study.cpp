@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Largest stable step of the time integrators against the number of elements or modes, their error against the step,
 // and what steps chosen from a tolerance cost, on a relaxing vesicle (docs/validation.md, docs/time_stepping.md).
+#include "support/command_line.hpp"
 #include "support/report.hpp"
 #include <axistokes/axistokes.hpp>
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -149,14 +148,13 @@ void study(const std::string& directory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Largest stable step and error in time of the integrators, on a relaxing prolate vesicle (D = 0.6)"};
+    examples::CommandLine app{
+        "time_step_study",
+        "Largest stable step and error in time of the integrators, on a relaxing prolate vesicle (D = 0.6)"};
     std::string directory;
-    app.add_option("--out", directory, "directory that receives stable_step.csv, time_error.csv and time_cost.csv");
-    CLI11_PARSE(app, argc, argv);
-    try {
+    app.text("--out", directory, "directory that receives stable_step.csv, time_error.csv and time_cost.csv");
+    return app.run(argc, argv, [&] {
         study(directory);
-    } catch (const std::exception& error) {
-        std::cerr << "time_step_study: " << error.what() << '\n';
-        return EXIT_FAILURE;
-    }
+        return 0;
+    });
 }

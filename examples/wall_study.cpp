@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a meshed wall costs (docs/wall_mesh.md): how far a settling sphere disturbs the flow in a tube, the wall nodes
 // needed for an accuracy of its tractions, by kind of mesh, and the time compared with the tube kernel.
+#include "support/command_line.hpp"
 #include "support/interleaved.hpp"
-#include "support/program.hpp"
 #include "support/report.hpp"
 #include "support/wall_decay.hpp"
 #include "support/wall_nodes.hpp"
@@ -193,12 +193,13 @@ void decay(const std::string& directory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Accuracy and cost of a meshed wall around a sphere that settles in a tube"};
+    examples::CommandLine app{"wall_study",
+                              "Accuracy and cost of a meshed wall around a sphere that settles in a tube"};
     std::string directory;
     double accuracy = 1e-3;
-    app.add_option("--out", directory, "directory that receives wall_decay.csv, wall_tolerance.csv, wall_nodes.csv");
-    examples::add_number(app, "--accuracy", accuracy, "of the tractions, for the number of nodes needed");
-    return examples::run_program("wall_study", app, argc, argv, [&] {
+    app.text("--out", directory, "directory that receives wall_decay.csv, wall_tolerance.csv, wall_nodes.csv");
+    app.number("--accuracy", accuracy, "of the tractions, for the number of nodes needed");
+    return app.run(argc, argv, [&] {
         detail::require(accuracy >= 1e-6 && accuracy <= 0.1, "accuracy", accuracy, "in [1e-6, 0.1]");
         decay(directory);
         chosen(directory);

@@ -3,7 +3,6 @@
 // how far it disturbs the flow.
 #include "support/command_line.hpp"
 #include "support/interleaved.hpp"
-#include "support/program.hpp"
 #include "support/progress.hpp"
 #include "support/report.hpp"
 #include "support/tube.hpp"
@@ -212,16 +211,17 @@ void decay(const Options& options, const State& state) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"A stationary vesicle in Poiseuille flow in a tube, by the tube kernel and by a meshed wall"};
+    examples::CommandLine app{
+        "wall_vesicles", "A stationary vesicle in Poiseuille flow in a tube, by the tube kernel and by a meshed wall"};
     Options options;
     options.vesicle.add_to(app);
     options.tube.add_to(app, "1/0.9");
-    examples::add_number(app, "--capillary-number", options.capillary_number, "Ca = eta u_max R0^2 / kappa");
-    examples::add_number(app, "--elements", options.elements, "elements on the meridian");
-    examples::add_number(app, "--settled", options.settled, "residual at which Newton's method takes over");
-    examples::add_number(app, "--accuracy", options.accuracy, "of the force densities, for the wall nodes needed");
-    app.add_option("--out", options.directory, "directory that receives agreement.csv, cost.csv, wall_decay.csv");
-    return examples::run_program("wall_vesicles", app, argc, argv, [&] {
+    app.number("--capillary-number", options.capillary_number, "Ca = eta u_max R0^2 / kappa");
+    app.number("--elements", options.elements, "elements on the meridian");
+    app.number("--settled", options.settled, "residual at which Newton's method takes over");
+    app.number("--accuracy", options.accuracy, "of the force densities, for the wall nodes needed");
+    app.text("--out", options.directory, "directory that receives agreement.csv, cost.csv, wall_decay.csv");
+    return app.run(argc, argv, [&] {
         detail::require(options.accuracy >= 1e-6 && options.accuracy <= 0.1, "accuracy", options.accuracy,
                         "in [1e-6, 0.1]");
         options.tube.confinement = options.tube.confinement.value_or(1 / 0.9);

@@ -2,11 +2,9 @@
 // Tables of cases: read from a file or made as a grid, and the rows already computed.
 #pragma once
 
+#include "command_line.hpp"
 #include "csv_input.hpp"
-#include "program.hpp"
 #include <axistokes/core.hpp>
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -58,7 +56,7 @@ class Range {
   public:
     Range(double lowest, double highest, long number) : low_(lowest), high_(highest), count_(number) {}
 
-    CLI::Option* add_to(CLI::App& app, const std::string& name, const std::string& description) {
+    Option add_to(CommandLine& app, const std::string& name, const std::string& description) {
         const auto parse = [this, name](const std::string& text) {
             const auto number = [&](std::string_view part, auto& value) {
                 const auto result = std::from_chars(part.data(), part.data() + part.size(), value);
@@ -78,11 +76,9 @@ class Range {
             }
             axistokes::detail::require(count_ >= 1 && count_ <= 10000 && high_ >= low_, name.c_str(), text,
                                        "lowest <= highest and a count in [1, 10000]");
-            return std::string();
         };
         text_ = std::to_string(low_) + ':' + std::to_string(high_) + ':' + std::to_string(count_);
-        return app.add_option(name, text_, description + ": lowest:highest:count, or one value")
-            ->check(CLI::Validator(parse, ""));
+        return app.text(name, text_, description + ": lowest:highest:count, or one value", parse);
     }
 
     std::vector<double> values() const {

@@ -1,69 +1,70 @@
 // SPDX-License-Identifier: MIT
-// The options of the simulations on the command line. Only the programs include it, not what they share: the parser
-// takes long to compile.
+// A program's options and its main(): parse the command line, run, and turn exceptions into one line and an exit code.
+// The parser itself (CLI11), which takes long to compile, is seen by one file alone.
 #pragma once
 
-#include "options.hpp"
-#include "program.hpp"
-#include "tube.hpp"
+#include "exit_code.hpp"
+#include <axistokes/core.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace examples {
 
-inline void MethodOptions::add_to(CLI::App& app, bool rigid) {
-    const std::string idle = rigid ? "; a rigid body takes one solution in any case" : "";
-    app.add_option("--discretization", discretization, "of the meridian: linear or spectral (default: spectral)");
-    app.add_option("--integrator", integrator,
-                   std::string("euler, order2, order3, or adaptive: third order, and up to sixth for tight tolerances\n"
-                               "(default: euler to a stationary state; adaptive where the way matters, and with\n"
-                               "--preset-accuracy)") +
-                       idle);
-    app.add_option(
-           "--stationary", stationary,
-           std::string("auto: march in time until the branch is settled, then Newton's method; or march, to the end;\n"
-                       "or newton, after a few steps") +
-               idle)
-        ->capture_default_str();
-    app.add_option("--preset-accuracy", preset,
-                   "fast (1e-3), balanced (1e-6) or reference (1e-10): every tolerance and the number of elements" +
-                       (preset ? " (default: " + *preset + ")" : std::string()));
-}
+/// An option that a program has; empty text and absent numbers show no default.
+class Option {
+  public:
+    explicit Option(CLI::Option* option) : option_(option) {}
 
-inline void RunOptions::add_to(CLI::App& app) {
-    add_number(app, "--elements", elements,
-               "elements, or modes, on the meridian (default: as many as the accuracy takes, 1e-4 without "
-               "--preset-accuracy)");
-    add_number(app, "--tolerance", tolerance, "stationary when the residual is below this (default: 1e-5)");
-    method.add_to(app);
-    add_output_to(app);
-    add_number(app, "--dt", time_step, "fixed time step (default: automatic)");
-    add_number(app, "--step-tolerance", step_tolerance,
-               "error allowed in a time step, in R0, by integrators that estimate it (default: 1e-4)");
-    add_number(app, "--time", time, "stop at this time, stationary or not");
-    add_number(app, "--max-steps", steps, "stop after this many steps, stationary or not");
-    app.add_option(
-           "--frame-times", frame_times,
-           "t1,t2,...: also write frames.csv, the shapes at these times (with --dt the first ones at or after them)")
-        ->delimiter(',')
-        ->check(number_check<double>("--frame-times"));
-}
+    bool given() const;
+    Option& required();
+    /// In the help.
+    Option& without_default();
+    Option& excludes(const Option& other);
+    Option& excludes(const std::string& other);
+    Option& needs(const std::string& other);
 
-inline void RunOptions::add_output_to(CLI::App& app) {
-    app.add_option("--out", directory, "directory for summary.json, shape.csv and history.csv; created if missing");
-    app.add_flag("--vtk", vtk, "also write surface.vtp, for ParaView");
-    app.add_flag("--flow-field", flow_field, "also write flow.vts, the flow in a plane through the axis");
-}
+  private:
+    CLI::Option* option_;
+};
 
-inline void VesicleOptions::add_to(CLI::App& app) {
-    add_number(app, "--excess-area", excess_area, "area of the membrane minus 4 pi, in R0^2 (0: a sphere)");
-    add_kind_to(app);
-}
+class CommandLine {
+  public:
+    using Index = axistokes::Index;
 
-inline void VesicleOptions::add_kind_to(CLI::App& app) {
-    app.add_option("--initial", kind, "initial shape: prolate or oblate spheroid")->capture_default_str();
-}
+    CommandLine(std::string program, const std::string& description);
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+    ~CommandLine();
 
-inline void TubeOptions::add_to(CLI::App& app, const std::string& without) {
-    add_number(app, "--confinement", confinement, "R0 over the tube's radius; without it " + without);
-}
+    /// Text that is not a number is reported as `--name = text: must be ...`; the range is left to whoever uses it.
+    Option number(const std::string& name, double& value, const std::string& description);
+    Option number(const std::string& name, std::optional<double>& value, const std::string& description);
+    Option number(const std::string& name, Index& value, const std::string& description);
+    Option number(const std::string& name, std::optional<Index>& value, const std::string& description);
+    /// Separated by commas.
+    Option numbers(const std::string& name, std::vector<double>& values, const std::string& description);
+    Option text(const std::string& name, std::string& value, const std::string& description);
+    Option text(const std::string& name, std::optional<std::string>& value, const std::string& description);
+    /// `read` gets the text at once, and throws InvalidArgument if it is none of those it knows.
+    Option text(const std::string& name, std::string& value, const std::string& description,
+                const std::function<void(const std::string&)>& read);
+    Option flag(const std::string& name, bool& value, const std::string& description);
+
+    /// The program's exit code; `run` returns one and is called once the options have their values.
+    int run(int argc, char** argv, const std::function<int()>& run);
+
+  private:
+    std::string program_;
+    std::unique_ptr<CLI::App> app_;
+};
 
 }  // namespace examples

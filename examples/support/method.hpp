@@ -11,11 +11,9 @@
 #include <optional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace examples {
+
+class CommandLine;
 
 struct MethodOptions {
     std::optional<std::string> discretization;
@@ -26,7 +24,7 @@ struct MethodOptions {
     std::optional<std::string> preset;
 
     /// `rigid`: the integrator and the way to the stationary state are accepted, and make no difference.
-    void add_to(CLI::App& app, bool rigid = false);
+    void add_to(CommandLine& app, bool rigid = false);
 
     /// Throws InvalidArgument for a value that is none of those offered.
     void check() const {

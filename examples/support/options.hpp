@@ -30,9 +30,9 @@ struct RunOptions {
     bool flow_field = false;
     std::vector<double> frame_times;
 
-    void add_to(CLI::App& app);
+    void add_to(CommandLine& app);
 
-    void add_output_to(CLI::App& app);
+    void add_output_to(CommandLine& app);
 
     /// Whether the number of elements is to follow from the accuracy.
     bool adapts() const { return !elements; }
@@ -107,9 +107,9 @@ struct VesicleOptions {
     double excess_area = 0.6;
     std::string kind = "prolate";
 
-    void add_to(CLI::App& app);
+    void add_to(CommandLine& app);
 
-    void add_kind_to(CLI::App& app);
+    void add_kind_to(CommandLine& app);
 
     axistokes::SpheroidKind spheroid_kind() const {
         axistokes::detail::require(kind == "prolate" || kind == "oblate", "initial shape", kind, "prolate or oblate");

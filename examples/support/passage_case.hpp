@@ -31,7 +31,7 @@ struct PassageOptions {
 
     PassageOptions() { method.preset = "fast"; }
 
-    void add_to(CLI::App& app);
+    void add_to(CommandLine& app);
 
     double tolerance() const { return wall_tolerance.value_or(method.accuracy()->wall); }
 

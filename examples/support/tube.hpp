@@ -13,7 +13,7 @@ namespace examples {
 struct TubeOptions {
     std::optional<double> confinement;
 
-    void add_to(CLI::App& app, const std::string& without);
+    void add_to(CommandLine& app, const std::string& without);
 
     double radius() const {
         axistokes::detail::require(*confinement > 0 && std::isfinite(*confinement), "confinement", *confinement,

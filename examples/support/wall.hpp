@@ -2,13 +2,14 @@
 // What simulations in a tube by either method share: the tube's Green function, or a mesh on its wall.
 #pragma once
 
-#include "program.hpp"
 #include <axistokes/wall/wall_params.hpp>
 
 #include <optional>
 #include <string>
 
 namespace examples {
+
+class CommandLine;
 
 struct WallOptions {
     std::string method = "tube";
@@ -17,23 +18,7 @@ struct WallOptions {
     std::string grading = "adaptive";
 
     /// `filon_too`: offer the slow quadrature of the tube's Green function as well.
-    void add_to(CLI::App& app, bool filon_too = false) {
-        filon_too_ = filon_too;
-        const std::string filon = filon_too ? "filon: the same by the paper's quadrature, slow;\n" : "";
-        app.add_option("--method", method,
-                       "tube: the tube's Green function; " + filon + "wall: the free-space one and a meshed wall")
-            ->capture_default_str();
-        add_number(app, "--wall-length", length,
-                   "with --method wall: length of the wall beyond the particle at either end, in R0 (default: from the "
-                   "tolerance)");
-        add_number(app, "--wall-elements", elements,
-                   "with --method wall: panels on the wall, without its ends (default: from the tolerance and the "
-                   "film)");
-        app.add_option("--wall-grading", grading,
-                       "with --method wall: distribution of the panels, adaptive (to the film), or with "
-                       "--wall-elements uniform or quadratic")
-            ->capture_default_str();
-    }
+    void add_to(CommandLine& app, bool filon_too = false);
 
     /// Whether the wall is to be meshed. Throws InvalidArgument for an unknown method.
     bool meshed() const {

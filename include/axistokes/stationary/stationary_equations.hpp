@@ -8,7 +8,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <complex>
@@ -92,19 +91,25 @@ Matrix<S> bordered(const Surface& surface, const Vector<S>& z, const Matrix<S>& 
     return system;
 }
 
-/// Eigenvalues of J on the displacements that keep the constraints, largest real part first.
+/// Eigenvalues of J on the displacements that keep the constraints G phi = 0, largest real part first.
+///
+/// With the corrections C, J - C (G C)^-1 (G J + s G) takes these displacements to such ones and all others, up to such
+/// ones, to -s times themselves: it has the eigenvalues wanted, and -s as often as there are constraints. A large s
+/// tells them apart.
 template <class S, class Surface>
 std::vector<std::complex<S>> growth_rates(const Surface& surface, const Vector<S>& z, const Matrix<S>& jacobian,
                                           bool keeps_area) {
-    const Index n = surface.size();
     const auto [gradients, corrections] = constraints<S>(surface, z, keeps_area);
-    const Matrix<S> basis =
-        Matrix<S>(Matrix<S>(gradients.transpose()).householderQr().householderQ()).rightCols(n - gradients.rows());
-    const Matrix<S> kept =
-        jacobian - corrections * (gradients * corrections).partialPivLu().solve(gradients * jacobian);
-    const Matrix<S> reduced = basis.transpose() * kept * basis;
-    const Vector<std::complex<S>> values = reduced.eigenvalues();
+    const Eigen::PartialPivLU<Matrix<S>> lu(Matrix<S>(gradients * corrections));
+    Matrix<S> kept = jacobian - corrections * lu.solve(gradients * jacobian);
+    const S shift = 2 * kept.cwiseAbs().rowwise().sum().maxCoeff();
+    kept -= shift * corrections * lu.solve(gradients);
+    const Vector<std::complex<S>> values = kept.eigenvalues();
     std::vector<std::complex<S>> rates(values.data(), values.data() + values.size());
+    // Those of the constraints first, to be cut off.
+    std::sort(rates.begin(), rates.end(),
+              [&](const auto& a, const auto& b) { return std::abs(a + shift) < std::abs(b + shift); });
+    rates.erase(rates.begin(), rates.begin() + gradients.rows());
     std::sort(rates.begin(), rates.end(), [](const auto& a, const auto& b) { return a.real() > b.real(); });
     return rates;
 }
