@@ -3,7 +3,8 @@
 // of elements (docs/validation.md).
 #include "support/command_line.hpp"
 #include "support/report.hpp"
-#include <axistokes/axistokes.hpp>
+#include "support/simulation.hpp"
+#include <axistokes/geometry/shapes.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -28,10 +29,8 @@ double median_milliseconds(const Action& action) {
     return times[7];
 }
 
-LinearElements<double> elements_with(double tolerance) {
-    LinearElements<double>::Params params;
-    params.tolerance = tolerance;
-    return LinearElements<double>(params);
+examples::AnyDiscretization elements_with(double tolerance) {
+    return examples::AnyDiscretization::of(false, tolerance);
 }
 
 /// A dumbbell with a thin neck: strands of the membrane face each other across the axis.
@@ -53,7 +52,7 @@ void quadrature_table(const std::string& directory) {
         const Matrix<double> exact = elements_with(1e-15).single_layer(shape, kernel);
         for (int digits = 2; digits <= 13; ++digits) {
             const double tolerance = std::pow(10.0, -digits);
-            const LinearElements<double> elements = elements_with(tolerance);
+            const examples::AnyDiscretization elements = elements_with(tolerance);
             const double error = (elements.single_layer(shape, kernel) - exact).cwiseAbs().maxCoeff();
             const double time = median_milliseconds([&] { elements.single_layer(shape, kernel); });
             table.row(name, tolerance, error / exact.cwiseAbs().maxCoeff(), time);
@@ -74,10 +73,9 @@ struct Settled {
 Settled settle(Index elements, double quadrature_tolerance) {
     SimulationParams<double> params;
     params.tolerance = 1e-8;
-    Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, Gravity<double>, SemiImplicitEuler,
-              DenseLU<double>>
-        simulator(spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, elements), Gravity<double>(47.0), params,
-                  {}, elements_with(quadrature_tolerance));
+    auto simulator = examples::free_simulation(
+        elements_with(quadrature_tolerance), examples::Vesicle(), examples::Drive(Gravity<double>(47.0)),
+        spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, elements), params);
     const auto begin = std::chrono::steady_clock::now();
     simulator.run();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

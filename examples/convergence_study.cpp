@@ -3,7 +3,8 @@
 // (docs/validation.md).
 #include "support/command_line.hpp"
 #include "support/report.hpp"
-#include <axistokes/axistokes.hpp>
+#include "support/simulation.hpp"
+#include <axistokes/geometry/shapes.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,14 +21,11 @@ namespace {
 
 using namespace axistokes;
 
-template <class Flow>
-using VesicleIn = Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, Flow, SemiImplicitEuler,
-                            DenseLU<double>>;
-
-SimulationParams<double> params() {
+examples::Simulation vesicle_in(const examples::Drive::Choice& flow, const Meridian<double>& shape) {
     SimulationParams<double> params;
     params.tolerance = 1e-7;
-    return params;
+    return examples::free_simulation(examples::AnyDiscretization::of(false, std::nullopt), examples::Vesicle(),
+                                     examples::Drive(flow), shape, params);
 }
 
 /// p of q(N) = q + c N^-p through three values, N increasing; NaN if they are not monotonic.
@@ -49,8 +47,7 @@ double observed_order(const std::array<Index, 3>& n, const std::array<double, 3>
     return low;
 }
 
-template <class Flow>
-void convergence_table(const std::string& directory, const std::string& name, const Flow& flow) {
+void convergence_table(const std::string& directory, const std::string& name, const examples::Drive::Choice& flow) {
     constexpr std::array<Index, 4> kElements{32, 64, 130, 260};
     struct Row {
         std::array<double, 3> quantities;
@@ -59,7 +56,7 @@ void convergence_table(const std::string& directory, const std::string& name, co
     };
     std::vector<Row> rows;
     for (const Index n : kElements) {
-        VesicleIn<Flow> simulator(spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n), flow, params());
+        auto simulator = vesicle_in(flow, spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n));
         const auto begin = std::chrono::steady_clock::now();
         if (!simulator.run()) {
             throw SimulationFailure(name + ": not stationary with " + std::to_string(n) + " elements");
@@ -106,7 +103,7 @@ void relaxation_table(const std::string& directory) {
     for (const auto& [reduced_volume, kind, reference] : kMinima) {
         for (const Index n : {64, 130}) {
             const double excess_area = 4 * std::numbers::pi * (std::pow(reduced_volume, -2.0 / 3) - 1);
-            VesicleIn<Quiescent<double>> simulator(spheroid_of_excess_area<double>(excess_area, kind, n), {}, params());
+            auto simulator = vesicle_in(Quiescent<double>(), spheroid_of_excess_area<double>(excess_area, kind, n));
             simulator.run();
             const auto& history = simulator.history();
             double rise = 0;

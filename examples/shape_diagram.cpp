@@ -3,16 +3,11 @@
 // (docs/shape_diagram.md).
 #include "support/cases.hpp"
 #include "support/command_line.hpp"
-#include <axistokes/discretization/spectral_meridian.hpp>
+#include "support/simulation.hpp"
 #include <axistokes/flow/poiseuille.hpp>
 #include <axistokes/geometry/tube_shapes.hpp>
 #include <axistokes/io/atomic_file.hpp>
-#include <axistokes/kernel/tube.hpp>
-#include <axistokes/membrane/vesicle.hpp>
-#include <axistokes/scene.hpp>
-#include <axistokes/solver/dense.hpp>
 #include <axistokes/stationary/stationary_branch.hpp>
-#include <axistokes/stationary/stationary_solver.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -31,10 +26,8 @@ namespace {
 using namespace axistokes;
 using examples::Case;
 
-using TubeScene =
-    Scene<TubeKernel<double>, SpectralMeridian<double>, Vesicle<double>, Poiseuille<double>, DenseLU<double>>;
-using Solver = StationarySolver<TubeScene>;
-using Branch = StationaryBranch<TubeScene>;
+using examples::Newton;
+using Branch = StationaryBranch<examples::Scene>;
 
 struct Settings {
     Index elements = 32;
@@ -46,7 +39,7 @@ struct Settings {
 
 struct Found {
     std::string start;
-    Solver::State state;
+    Newton::State state;
     double growth = 0;
     double unresolved = 0;
     double seconds = 0;
@@ -56,9 +49,17 @@ double excess_area(double reduced_volume) {
     return 4 * detail::pi_value<double>() * (std::pow(reduced_volume, -2.0 / 3) - 1);
 }
 
-TubeScene scene_of(double confinement, double capillary_number) {
-    return {TubeKernel<double>(1 / confinement), SpectralMeridian<double>(), Vesicle<double>(),
-            Poiseuille<double>(capillary_number, 1 / confinement), DenseLU<double>()};
+const auto discretization = examples::AnyDiscretization::of(true, std::nullopt);
+
+examples::Scene scene_of(double confinement, double capillary_number) {
+    examples::Surroundings tube;
+    tube.tube_radius = 1 / confinement;
+    return {examples::kernel_for(tube, std::nullopt),
+            discretization,
+            examples::Law(examples::Vesicle()),
+            examples::Drive(Poiseuille<double>(capillary_number, 1 / confinement)),
+            examples::Solver(),
+            examples::AnyWall()};
 }
 
 class Diagram {
@@ -99,26 +100,26 @@ class Diagram {
     }
 
     static bool is_parachute(const Found& f) {
-        return SpectralMeridian<double>().pole_curvatures(f.state.configuration.shape).first <= 0;
+        return discretization.pole_curvatures(f.state.configuration.shape).first <= 0;
     }
 
   private:
     static double area(const Case& c) { return 4 * detail::pi_value<double>() + excess_area(c.reduced_volume); }
     static double volume() { return 4 * detail::pi_value<double>() / 3; }
 
-    static bool differ(const Solver::State& a, const Solver::State& b) {
-        const auto length = [](const Solver::State& s) {
+    static bool differ(const Newton::State& a, const Newton::State& b) {
+        const auto length = [](const Newton::State& s) {
             const Meridian<double>& shape = s.configuration.shape;
             return shape.z[shape.elements()] - shape.z[0];
         };
         return std::abs(length(a) - length(b)) > 1e-3;
     }
 
-    Solver solver(const Case& c) const {
+    Newton solver(const Case& c) const {
         StationaryParams<double> params;
         params.tolerance = settings_.tolerance;
         params.most_iterations = 200;
-        return Solver(scene_of(c.confinement, c.capillary_number), params);
+        return Newton(scene_of(c.confinement, c.capillary_number), params);
     }
 
     Meridian<double> start(SpheroidKind kind, const Case& c) const {
@@ -195,10 +196,9 @@ class Diagram {
     }
 
     /// With more modes until the shape is resolved, and its stability.
-    Found refined(Solver::State state, const Case& wanted) const {
+    Found refined(Newton::State state, const Case& wanted) const {
         Found found;
-        Solver newton = solver(wanted);
-        const auto& discretization = newton.scene().discretization();
+        Newton newton = solver(wanted);
         for (;;) {
             const Meridian<double> shape = state.configuration.shape;
             found.unresolved = discretization.unresolved(shape);
@@ -206,7 +206,7 @@ class Diagram {
             if (found.unresolved <= settings_.unresolved || elements > settings_.most_elements) {
                 break;
             }
-            state = newton.solve(discretization.resampled(shape, elements), area(wanted), volume());
+            state = newton.solve(detail::resampled(shape, elements), area(wanted), volume());
         }
         found.growth = newton.growth_rates(state).front().real();
         found.state = std::move(state);
@@ -231,7 +231,6 @@ std::string rows(const Case& c, const std::vector<Found>& found, const std::stri
     if (found.empty()) {
         out << examples::key(c) << ",0,,,,,,,,,,,,,,,," << cause << '\n';
     }
-    const SpectralMeridian<double> discretization;
     for (const Found& f : found) {
         const Meridian<double>& shape = f.state.configuration.shape;
         const auto [rear, front] = discretization.pole_curvatures(shape);
@@ -273,7 +272,7 @@ int main(int argc, char** argv) {
     examples::Range reduced_volume(0.7, 0.98, 8);
     double capillary_number = 10;
     Settings settings;
-    auto* cases = app.text("--cases", input,
+    const examples::Option cases = app.text("--cases", input,
                            "CSV file with columns confinement (R0 over the tube's radius), reduced_volume and "
                            "capillary_number");
     confinement.add_to(app, "--confinement", "R0 over the tube's radius").excludes(cases);

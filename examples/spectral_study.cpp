@@ -3,7 +3,8 @@
 // vesicles against the number of modes (docs/spectral.md).
 #include "support/command_line.hpp"
 #include "support/report.hpp"
-#include <axistokes/axistokes.hpp>
+#include "support/simulation.hpp"
+#include <axistokes/geometry/shapes.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -28,9 +29,12 @@ Meridian<double> ellipse(double a, double c, Index n) {
     return m;
 }
 
+examples::AnyDiscretization series() {
+    return examples::AnyDiscretization::of(true, std::nullopt);
+}
+
 Vector<double> bending_force(Index n) {
-    const auto surface = spectral_surface(ellipse(1, 2, n));
-    return Vesicle<double>::force(surface);
+    return examples::Vesicle::force(series().surface(ellipse(1, 2, n)));
 }
 
 /// Against the same on 48 modes, where round-off and truncation are balanced.
@@ -51,7 +55,7 @@ double bending_error(Index n) {
 /// A force density proportional to n.x moves the prolate spheroid of aspect 2 like a rigid body.
 double translation_error(Index n) {
     const Meridian<double> m = ellipse(1, 2, n);
-    const SpectralMeridian<double> spectral;
+    const examples::AnyDiscretization spectral = series();
     const auto surface = spectral.surface(m);
     Vector<double> force = Vector<double>::Zero(2 * (n + 1));
     force.tail(n + 1) = surface.normal_r.cwiseProduct(m.r) + surface.normal_z.cwiseProduct(m.z);
@@ -64,29 +68,27 @@ double translation_error(Index n) {
 }
 
 double tube_drag(double confinement, Index n) {
-    TubeKernel<double>::Params params;
-    params.tolerance = 1e-11;
-    Simulator<TubeKernel<double>, SpectralMeridian<double>, RigidBody<double>, Gravity<double>, SemiImplicitEuler,
-              DenseLU<double>>
-        run(ellipse(1, 1, n), Gravity<double>(1.0), {}, TubeKernel<double>(1 / confinement, params));
+    examples::Surroundings tube;
+    tube.tube_radius = 1 / confinement;
+    examples::Simulation run(
+        examples::Scene(examples::kernel_for(tube, 1e-11), series(), examples::Law(examples::RigidBody()),
+                        examples::Drive(Gravity<double>(1.0)), examples::Solver(), examples::AnyWall()),
+        ExtrapolatedEulerOfOrder(1), ellipse(1, 1, n));
     return -2.0 / 9 / run.step().velocity;
 }
 
-template <class Discretization, class Flow>
-void stationary(examples::Report& table, const std::string& name, Flow flow, Index n) {
+void stationary(examples::Report& table, const std::string& name, const examples::AnyDiscretization& discretization,
+                const examples::Drive::Choice& flow, Index n) {
     SimulationParams<double> params;
     params.tolerance = 1e-8;
-    Simulator<FreeSpaceKernel<double>, Discretization, Vesicle<double>, Flow, SemiImplicitEuler, DenseLU<double>> run(
-        spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n), flow, params);
+    auto run = examples::free_simulation(discretization, examples::Vesicle(), examples::Drive(flow),
+                                         spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n), params);
     const auto begin = std::chrono::steady_clock::now();
     run.run();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const StepRecord<double>& last = run.history().back();
-    double unresolved = 0;
-    if constexpr (requires { run.scene().discretization().unresolved(run.shape()); }) {
-        unresolved = run.scene().discretization().unresolved(run.shape());
-    }
-    table.row(name, n, last.velocity, last.length, last.bending_energy, unresolved, last.step, seconds);
+    table.row(name, n, last.velocity, last.length, last.bending_energy, discretization.unresolved(run.shape()),
+              last.step, seconds);
 }
 
 void study(const std::string& directory) {
@@ -104,14 +106,15 @@ void study(const std::string& directory) {
     const Gravity<double> gravity(47.0);
     const UnboundedPoiseuille<double> flow(0.5);
     for (const Index n : {8, 12, 16, 24, 32, 48, 64}) {
-        stationary<SpectralMeridian<double>>(vesicles, "settling", gravity, n);
+        stationary(vesicles, "settling", series(), gravity, n);
     }
     for (const Index n : {8, 12, 16, 24, 32, 48, 64}) {
-        stationary<SpectralMeridian<double>>(vesicles, "Poiseuille", flow, n);
+        stationary(vesicles, "Poiseuille", series(), flow, n);
     }
+    const auto elements = examples::AnyDiscretization::of(false, std::nullopt);
     for (const Index n : {64, 128}) {
-        stationary<LinearElements<double>>(vesicles, "settling P1", gravity, n);
-        stationary<LinearElements<double>>(vesicles, "Poiseuille P1", flow, n);
+        stationary(vesicles, "settling P1", elements, gravity, n);
+        stationary(vesicles, "Poiseuille P1", elements, flow, n);
     }
 }
 

@@ -3,20 +3,8 @@
 // growth rates from the linearisation against those by differences (docs/stationary.md).
 #include "support/command_line.hpp"
 #include "support/report.hpp"
-#include <axistokes/discretization/linear_elements.hpp>
-#include <axistokes/discretization/spectral_meridian.hpp>
-#include <axistokes/flow/gravity.hpp>
-#include <axistokes/flow/poiseuille.hpp>
-#include <axistokes/flow/sum.hpp>
-#include <axistokes/flow/unbounded_poiseuille.hpp>
+#include "support/simulation.hpp"
 #include <axistokes/geometry/tube_shapes.hpp>
-#include <axistokes/kernel/free_space.hpp>
-#include <axistokes/kernel/tube.hpp>
-#include <axistokes/membrane/vesicle.hpp>
-#include <axistokes/simulator.hpp>
-#include <axistokes/solver/dense.hpp>
-#include <axistokes/stationary/stationary_solver.hpp>
-#include <axistokes/time/semi_implicit_euler.hpp>
 
 #include <cmath>
 #include <ctime>
@@ -26,8 +14,6 @@
 namespace {
 
 using namespace axistokes;
-using OpenFlow = Sum<UnboundedPoiseuille<double>, Gravity<double>>;
-
 /// Processor time: other programs on the machine must not show.
 class Stopwatch {
   public:
@@ -43,22 +29,43 @@ double length(const Meridian<double>& shape) {
     return shape.z[shape.elements()] - shape.z[0];
 }
 
-template <class Kernel, class Flow>
-void compare(examples::Report& table, const std::string& name, const Kernel& kernel, const Flow& flow,
-             const Meridian<double>& start) {
-    using March =
-        Simulator<Kernel, SpectralMeridian<double>, Vesicle<double>, Flow, SemiImplicitEuler, DenseLU<double>>;
+examples::Scene scene_of(const examples::AnyDiscretization& discretization, const examples::Drive& drive,
+                         std::optional<double> tube_radius = {}) {
+    examples::Surroundings surroundings;
+    surroundings.tube_radius = tube_radius;
+    return {examples::kernel_for(surroundings, std::nullopt),
+            discretization,
+            examples::Law(examples::Vesicle()),
+            drive,
+            examples::Solver(),
+            examples::AnyWall()};
+}
+
+SimulationParams<double> march_params() {
     SimulationParams<double> params;
     params.tolerance = kTolerance;
+    return params;
+}
+
+StationaryParams<double> newton_params() {
+    StationaryParams<double> params;
+    params.tolerance = kTolerance;
+    return params;
+}
+
+const auto series = examples::AnyDiscretization::of(true, std::nullopt);
+const auto elements = examples::AnyDiscretization::of(false, std::nullopt);
+
+void compare(examples::Report& table, const std::string& name, const examples::Drive& drive,
+             const Meridian<double>& start, std::optional<double> tube_radius = {}) {
+    const examples::Scene scene = scene_of(series, drive, tube_radius);
     const Stopwatch marching;
-    March march(start, flow, params, kernel);
+    examples::Simulation march(scene, ExtrapolatedEulerOfOrder(1), start, march_params());
     march.run();
     const double march_seconds = marching.seconds();
     const auto& last = march.history().back();
 
-    StationaryParams<double> newton_params;
-    newton_params.tolerance = kTolerance;
-    StationarySolver<typename March::SceneType> newton(march.scene(), newton_params);
+    examples::Newton newton(scene, newton_params());
     const Stopwatch solving;
     const auto state = newton.solve(start, march.initial_area(), march.initial_volume());
     const double newton_seconds = solving.seconds();
@@ -74,15 +81,9 @@ void compare(examples::Report& table, const std::string& name, const Kernel& ker
 }
 
 /// The velocity at equal accuracy: spectral Newton against P1 elements, marched and by Newton's method.
-void equal_accuracy(examples::Report& table, const OpenFlow& flow) {
+void equal_accuracy(examples::Report& table, const examples::Drive& drive) {
     const auto start = [](Index n) { return spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n); };
-    using SpectralScene =
-        Scene<FreeSpaceKernel<double>, SpectralMeridian<double>, Vesicle<double>, OpenFlow, DenseLU<double>>;
-    using March = Simulator<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, OpenFlow,
-                            SemiImplicitEuler, DenseLU<double>>;
-    StationaryParams<double> newton_params;
-    newton_params.tolerance = kTolerance;
-    StationarySolver<SpectralScene> newton(SpectralScene({}, SpectralMeridian<double>(), {}, flow, {}), newton_params);
+    examples::Newton newton(scene_of(series, drive), newton_params());
     const double area = 4 * detail::pi_value<double>() + 0.6;
     const double volume = 4 * detail::pi_value<double>() / 3;
     const double exact = newton.solve(start(64), area, volume).instant.velocity;
@@ -92,14 +93,12 @@ void equal_accuracy(examples::Report& table, const OpenFlow& flow) {
         table.row("spectral Newton", n, std::abs(state.instant.velocity / exact - 1), watch.seconds());
     }
     for (const Index n : {64, 128, 260}) {
-        SimulationParams<double> params;
-        params.tolerance = kTolerance;
         const Stopwatch watch;
-        March march(start(n), flow, params);
+        examples::Simulation march(scene_of(elements, drive), ExtrapolatedEulerOfOrder(1), start(n), march_params());
         march.run();
         table.row("P1 marched", n, std::abs(march.history().back().velocity / exact - 1), watch.seconds());
     }
-    StationarySolver<typename March::SceneType> linear({{}, LinearElements<double>(), {}, flow, {}}, newton_params);
+    examples::Newton linear(scene_of(elements, drive), newton_params());
     for (const Index n : {64, 128, 260}) {
         const Stopwatch watch;
         const auto state = linear.solve(start(n), area, volume);
@@ -116,19 +115,19 @@ void study(const std::string& directory, bool film) {
     const auto in_tube = [&](const std::string& name, double excess_area, double confinement, double ca,
                              SpheroidKind kind, Index n) {
         const double radius = 1 / confinement;
-        compare(table, name, TubeKernel<double>(radius), Poiseuille<double>(ca, radius),
-                shape_in_tube<double>(excess_area, radius, kind, n));
+        compare(table, name, examples::Drive(Poiseuille<double>(ca, radius)),
+                shape_in_tube<double>(excess_area, radius, kind, n), radius);
     };
     if (film) {
         in_tube("tube D=4.8 L=1/0.55 Ca=100", 4.8, 1 / 0.55, 100, SpheroidKind::prolate, 64);
         return;
     }
-    const OpenFlow settling(UnboundedPoiseuille<double>(0), Gravity<double>(47));
-    const OpenFlow unbounded(UnboundedPoiseuille<double>(0.5), Gravity<double>(0));
+    const examples::Drive settling(Gravity<double>(47));
+    const examples::Drive unbounded(UnboundedPoiseuille<double>(0.5));
     for (const Index n : {32, 48}) {
         const auto start = spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, n);
-        compare(table, "settling B0=47 D=0.6", FreeSpaceKernel<double>(), settling, start);
-        compare(table, "unbounded Poiseuille Ca=0.5 D=0.6", FreeSpaceKernel<double>(), unbounded, start);
+        compare(table, "settling B0=47 D=0.6", settling, start);
+        compare(table, "unbounded Poiseuille Ca=0.5 D=0.6", unbounded, start);
         in_tube("tube D=1.59 L=1/0.9 Ca=100", 1.59, 1 / 0.9, 100, SpheroidKind::prolate, n);
         in_tube("tube D=0.9 L=0.3 Ca=1", 0.9, 0.3, 1, SpheroidKind::prolate, n);
         in_tube("tube D=0.9 L=0.3 Ca=20 oblate start", 0.9, 0.3, 20, SpheroidKind::oblate, n);

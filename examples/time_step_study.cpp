@@ -3,7 +3,9 @@
 // and what steps chosen from a tolerance cost, on a relaxing vesicle (docs/validation.md, docs/time_stepping.md).
 #include "support/command_line.hpp"
 #include "support/report.hpp"
-#include <axistokes/axistokes.hpp>
+#include "support/simulation.hpp"
+#include <axistokes/geometry/shapes.hpp>
+#include <axistokes/time/explicit_euler.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -18,12 +20,23 @@ namespace {
 
 using namespace axistokes;
 
-using Linear = LinearElements<double>;
-using Spectral = SpectralMeridian<double>;
+using examples::AnyDiscretization;
 
-template <class Discretization, class Integrator>
-using Relaxation =
-    Simulator<FreeSpaceKernel<double>, Discretization, Vesicle<double>, Quiescent<double>, Integrator, DenseLU<double>>;
+const AnyDiscretization elements = AnyDiscretization::of(false, std::nullopt);
+const AnyDiscretization series = AnyDiscretization::of(true, std::nullopt);
+
+template <class Integrator>
+using Relaxation = Simulator<examples::OptionalTubeKernel, AnyDiscretization, examples::Law, examples::Drive,
+                             Integrator, examples::Solver, examples::AnyWall>;
+
+template <class Integrator>
+Relaxation<Integrator> relaxation(const AnyDiscretization& discretization, const Integrator& integrator,
+                                  const Meridian<double>& shape, const SimulationParams<double>& params) {
+    return {examples::Scene(examples::OptionalTubeKernel(examples::OptionalTubeImages()), discretization,
+                            examples::Law(examples::Vesicle()), examples::Drive(Quiescent<double>()),
+                            examples::Solver(), examples::AnyWall()),
+            integrator, shape, params};
+}
 
 SimulationParams<double> fixed_step(double dt, Index steps) {
     SimulationParams<double> params;
@@ -33,16 +46,15 @@ SimulationParams<double> fixed_step(double dt, Index steps) {
     return params;
 }
 
-Meridian<double> start(Index elements) {
-    return spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, elements);
+Meridian<double> start(Index count) {
+    return spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, count);
 }
 
 /// Stable: many steps without a failure and without a rise of the bending energy above its first value.
-template <class Discretization, class Integrator>
-bool stable(const Integrator& integrator, Index elements, double dt) {
+template <class Integrator>
+bool stable(const AnyDiscretization& discretization, const Integrator& integrator, Index n, double dt) {
     constexpr Index kSteps = 200;
-    Relaxation<Discretization, Integrator> simulator(start(elements), {}, fixed_step(dt, kSteps), {}, Discretization(),
-                                                     {}, integrator);
+    auto simulator = relaxation(discretization, integrator, start(n), fixed_step(dt, kSteps));
     const double first = simulator.scene().discretization().bending_energy(simulator.configuration().shape);
     try {
         simulator.run();
@@ -54,17 +66,17 @@ bool stable(const Integrator& integrator, Index elements, double dt) {
 }
 
 /// By bisection of the exponent, to 5 %; `largest` if that is stable.
-template <class Discretization, class Integrator>
-double largest_stable_step(const Integrator& integrator, Index elements) {
+template <class Integrator>
+double largest_stable_step(const AnyDiscretization& discretization, const Integrator& integrator, Index n) {
     constexpr double kLargest = 1;
-    if (stable<Discretization>(integrator, elements, kLargest)) {
+    if (stable(discretization, integrator, n, kLargest)) {
         return kLargest;
     }
     double low = 1e-8;
     double high = kLargest;
     while (high / low > 1.05) {
         const double middle = std::sqrt(low * high);
-        (stable<Discretization>(integrator, elements, middle) ? low : high) = middle;
+        (stable(discretization, integrator, n, middle) ? low : high) = middle;
     }
     return low;
 }
@@ -72,10 +84,10 @@ double largest_stable_step(const Integrator& integrator, Index elements) {
 using Order = ExtrapolatedEulerOfOrder;
 const std::string columns = "explicit_euler,semi_implicit_euler,order_2,order_3,order_4,order_5,order_6";
 
-template <class Discretization>
-void stable_steps(examples::Report& table, const std::string& name, std::initializer_list<Index> counts) {
+void stable_steps(examples::Report& table, const std::string& name, const AnyDiscretization& discretization,
+                  std::initializer_list<Index> counts) {
     for (const Index n : counts) {
-        const auto largest = [&](const auto& integrator) { return largest_stable_step<Discretization>(integrator, n); };
+        const auto largest = [&](const auto& integrator) { return largest_stable_step(discretization, integrator, n); };
         table.row(name, n, largest(ExplicitEuler()), largest(Order(1)), largest(Order(2)), largest(Order(3)),
                   largest(Order(4)), largest(Order(5)), largest(Order(6)));
     }
@@ -85,8 +97,7 @@ constexpr double kTime = 0.02;
 
 template <class Integrator>
 double length_after(const Integrator& integrator, Index steps) {
-    Relaxation<Spectral, Integrator> simulator(start(24), {}, fixed_step(kTime / static_cast<double>(steps), steps), {},
-                                               Spectral(), {}, integrator);
+    auto simulator = relaxation(series, integrator, start(24), fixed_step(kTime / static_cast<double>(steps), steps));
     simulator.run();
     return simulator.history().back().length;
 }
@@ -115,7 +126,7 @@ Run relaxed(int order, double tolerance) {
     params.tolerance = 1e-12;
     params.longest_time = 0.2;
     params.step_tolerance = tolerance;
-    Relaxation<Spectral, Order> simulator(start(48), {}, params, {}, Spectral(), {}, Order(order));
+    auto simulator = relaxation(series, Order(order), start(48), params);
     const auto begin = std::chrono::steady_clock::now();
     simulator.run();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
@@ -124,8 +135,8 @@ Run relaxed(int order, double tolerance) {
 
 void study(const std::string& directory) {
     examples::Report limits(directory, "stable_step.csv", "discretisation,n," + columns);
-    stable_steps<Linear>(limits, "P1", {16, 32, 64, 128});
-    stable_steps<Spectral>(limits, "spectral", {12, 16, 24, 32});
+    stable_steps(limits, "P1", elements, {16, 32, 64, 128});
+    stable_steps(limits, "spectral", series, {12, 16, 24, 32});
 
     const double exact = length_after(Order(6), 128);
     examples::Report errors(directory, "time_error.csv", "steps,dt," + columns);

@@ -5,10 +5,10 @@
 #include "support/interleaved.hpp"
 #include "support/progress.hpp"
 #include "support/report.hpp"
+#include "support/simulation.hpp"
 #include "support/tube.hpp"
 #include "support/wall_decay.hpp"
 #include "support/wall_nodes.hpp"
-#include <axistokes/axistokes.hpp>
 #include <axistokes/geometry/distance.hpp>
 
 #include <algorithm>
@@ -20,10 +20,8 @@
 namespace {
 
 using namespace axistokes;
-using Tube = WallMesh<StraightTube<double>>;
-using ByTube = Scene<TubeKernel<double>, LinearElements<double>, Vesicle<double>, Poiseuille<double>, DenseLU<double>>;
-using ByWall =
-    Scene<FreeSpaceKernel<double>, LinearElements<double>, Vesicle<double>, Poiseuille<double>, DenseLU<double>, Tube>;
+using examples::AnyDiscretization;
+using examples::Scene;
 
 struct Options {
     examples::VesicleOptions vesicle{1.59, "prolate"};
@@ -38,20 +36,35 @@ struct Options {
     Poiseuille<double> flow() const { return {capillary_number, radius()}; }
 };
 
-LinearElements<double> fine_elements() {
-    LinearElements<double>::Params params;
-    params.tolerance = 1e-9;
-    return LinearElements<double>(params);
+AnyDiscretization elements_with(double tolerance) {
+    return AnyDiscretization::of(false, tolerance);
 }
 
-ByTube by_tube(const Options& options, const LinearElements<double>& elements, double tolerance) {
-    TubeKernel<double>::Params params;
-    params.tolerance = tolerance;
-    return {TubeKernel<double>(options.radius(), params), elements, {}, options.flow(), {}};
+AnyDiscretization fine_elements() {
+    return elements_with(1e-9);
 }
 
-ByWall by_wall(const Options& options, const LinearElements<double>& elements, const WallMeshParams<double>& params) {
-    return {{}, elements, {}, options.flow(), {}, Tube(StraightTube<double>(options.radius()), params)};
+Scene scene_in(const examples::Surroundings& surroundings, const Options& options, const AnyDiscretization& elements,
+               std::optional<double> tolerance) {
+    return {examples::kernel_for(surroundings, tolerance),
+            elements,
+            examples::Law(examples::Vesicle()),
+            examples::Drive(options.flow()),
+            examples::Solver(),
+            examples::wall_for(surroundings)};
+}
+
+Scene by_tube(const Options& options, const AnyDiscretization& elements, std::optional<double> tolerance) {
+    examples::Surroundings tube;
+    tube.tube_radius = options.radius();
+    return scene_in(tube, options, elements, tolerance);
+}
+
+Scene by_wall(const Options& options, const AnyDiscretization& elements, const WallMeshParams<double>& params) {
+    examples::Surroundings tube;
+    tube.tube_radius = options.radius();
+    tube.wall = params;
+    return scene_in(tube, options, elements, std::nullopt);
 }
 
 WallMeshParams<double> wall_of(double tolerance) {
@@ -64,10 +77,9 @@ WallMeshParams<double> wall_of(double tolerance) {
 Meridian<double> settle(const Options& options) {
     SimulationParams<double> params;
     params.tolerance = options.settled;
-    Simulator<TubeKernel<double>, LinearElements<double>, Vesicle<double>, Poiseuille<double>, SemiImplicitEuler,
-              DenseLU<double>>
-        run(options.tube.shape(options.vesicle, options.elements), options.flow(), params,
-            TubeKernel<double>(options.radius()));
+    examples::Simulation run(by_tube(options, AnyDiscretization::of(false, std::nullopt), std::nullopt),
+                             ExtrapolatedEulerOfOrder(1), options.tube.shape(options.vesicle, options.elements),
+                             params);
     examples::ProgressBar bar;
     examples::Approach approach(params.tolerance);
     run.run([&](const auto& record) {
@@ -78,11 +90,11 @@ Meridian<double> settle(const Options& options) {
     return run.configuration().shape;
 }
 
-template <class SceneType>
-auto stationary(const SceneType& scene, const Meridian<double>& start, const Options& options, bool coarse_start) {
+examples::Newton::State stationary(const Scene& scene, const Meridian<double>& start, const Options& options,
+                                   bool coarse_start) {
     StationaryParams<double> params;
     params.coarse_start = coarse_start;
-    return StationarySolver<SceneType>(scene, params)
+    return examples::Newton(scene, params)
         .solve(start, 4 * detail::pi_value<double>() + options.vesicle.excess_area, 4 * detail::pi_value<double>() / 3);
 }
 
@@ -91,18 +103,17 @@ double largest_deviation(const Vector<double>& values, const Vector<double>& ref
 }
 
 /// The stationary shapes and velocities of both methods, each by Newton's method, for walls of several tolerances.
-template <class State>
-void agreement(const Options& options, const State& exact) {
+void agreement(const Options& options, const examples::Newton::State& exact) {
     examples::Report table(options.directory, "agreement.csv",
                            "wall_tolerance,wall_panels,wall_nodes,velocity,velocity_error,pressure_drop_error,"
                            "shape_distance,velocity_tube");
     for (const double tolerance : {1e-3, 1e-5}) {
         const WallMeshParams<double> params = wall_of(tolerance);
-        ByWall scene = by_wall(options, fine_elements(), params);
+        Scene scene = by_wall(options, fine_elements(), params);
         // From the other method's shape, so that the nodes are the same: where they are matters by O(h^2).
         const auto state = stationary(scene, exact.configuration.shape, options, false);
         scene.evaluate(state.configuration, 0);
-        const auto& mesh = *scene.wall().mesh();
+        const auto& mesh = *scene.wall().mesh()->mesh();
         table.row(tolerance, mesh.wall_panels(), mesh.curve().size(), state.instant.velocity,
                   state.instant.velocity / exact.instant.velocity - 1,
                   state.instant.pressure_drop / exact.instant.pressure_drop - 1,
@@ -113,14 +124,13 @@ void agreement(const Options& options, const State& exact) {
 }
 
 /// Errors of the force densities and velocities on one frozen shape, and the times of one step.
-template <class State>
-void cost(const Options& options, const State& state) {
+void cost(const Options& options, const examples::Newton::State& state) {
     examples::Report table(options.directory, "cost.csv",
                            "accuracy,mesh,grading,length_beyond_vesicle,nodes_per_panel,wall_panels,wall_nodes,"
                            "force_error,velocity_error,kernel_tolerance,kernel_force_error,tube_ms,wall_ms,"
                            "tube_over_wall");
     const auto& configuration = state.configuration;
-    const LinearElements<double> fine = fine_elements();
+    const AnyDiscretization fine = fine_elements();
     const auto exact = by_tube(options, fine, 1e-10).evaluate(configuration, 0);
     const auto force_error = [&](const auto& instant) {
         return largest_deviation(instant.solution.force, exact.solution.force);
@@ -135,18 +145,16 @@ void cost(const Options& options, const State& state) {
     }
     const auto report = [&](const std::string& name, const WallMeshParams<double>& params) {
         const auto instant = by_wall(options, fine, params).evaluate(configuration, 0);
-        LinearElements<double>::Params coarse_params;
-        coarse_params.tolerance = options.accuracy / 1000;
-        const LinearElements<double> coarse(coarse_params);
-        ByTube tube = by_tube(options, coarse, kernel_tolerance);
-        ByWall wall = by_wall(options, coarse, params);
+        const AnyDiscretization coarse = elements_with(options.accuracy / 1000);
+        Scene tube = by_tube(options, coarse, kernel_tolerance);
+        Scene wall = by_wall(options, coarse, params);
         wall.evaluate(configuration, 0);  // makes the mesh
         constexpr double time_step = 1e-3;
         constexpr int repetitions = 31;
         const auto [tube_seconds, wall_seconds] = examples::median_seconds(
             repetitions, [&] { tube.evaluate(configuration, time_step); },
             [&] { wall.evaluate(configuration, time_step); });
-        const auto& mesh = *wall.wall().mesh();
+        const auto& mesh = *wall.wall().mesh()->mesh();
         const double length = configuration.shape.z.maxCoeff() - configuration.shape.z.minCoeff();
         table.row(options.accuracy, name, examples::name_of(params.grading), (mesh.upper() - mesh.lower() - length) / 2,
                   mesh.curve().nodes_per_panel(), mesh.wall_panels(), mesh.curve().size(), force_error(instant),
@@ -159,7 +167,7 @@ void cost(const Options& options, const State& state) {
         lengths.push_back(length * options.radius());
     }
     // The unbounded part does not depend on the wall.
-    ByWall scene = by_wall(options, fine, wall_of(options.accuracy));
+    Scene scene = by_wall(options, fine, wall_of(options.accuracy));
     const auto frozen_without_wall = [&] {
         auto frozen = scene.freeze({configuration});
         frozen.mobility = fine.single_layer(configuration.shape, scene.kernel());
@@ -168,9 +176,9 @@ void cost(const Options& options, const State& state) {
     }();
     const auto wall_error = [&](const WallMeshParams<double>& params) {
         auto frozen = frozen_without_wall;
-        Tube tube(StraightTube<double>(options.radius()), params);
+        examples::AnyWall tube = by_wall(options, fine, params).wall();
         tube.confine(fine, scene.kernel(), {configuration.shape}, frozen.mobility, frozen.background);
-        const std::vector<detail::EquationBody<double, ByWall::Surface, Vesicle<double>>> bodies{
+        const std::vector<detail::EquationBody<double, Scene::Surface, examples::Law>> bodies{
             {scene.law(), frozen.bodies[0].surface, frozen.bodies[0].load, configuration.tension, {}}};
         detail::complete_rank<double>(bodies, frozen.mobility, frozen.background);
         return force_error(scene.evaluate(frozen, {configuration}, 0).front());
@@ -185,22 +193,19 @@ void cost(const Options& options, const State& state) {
 }
 
 /// Up- and downstream of a stationary vesicle.
-template <class State>
-void decay(const Options& options, const State& state) {
+void decay(const Options& options, const examples::Newton::State& state) {
     const double step = examples::DecayReport::step;
     const double reach = std::max(state.configuration.shape.z.maxCoeff(), -state.configuration.shape.z.minCoeff());
     const double nearest = step * std::ceil(1.1 * reach / options.radius() / step);
     const double farthest = std::max(4.5, nearest + 2);
     WallMeshParams<double> params = wall_of(1e-12);
     params.length = (farthest + 1.0) * options.radius();
-    LinearElements<double>::Params accurate;
-    accurate.tolerance = 1e-13;
-    const LinearElements<double> elements(accurate);
-    ByWall scene = by_wall(options, elements, params);
+    const AnyDiscretization elements = elements_with(1e-13);
+    Scene scene = by_wall(options, elements, params);
     const auto instant = scene.evaluate(state.configuration, 0);
     // The uniform pressure in the force moves nothing: without it, neither does its discretisation error.
     const auto force = detail::without_flux<double>(instant.surface, instant.solution.force);
-    Tube tube = scene.wall();
+    examples::AnyWall tube = scene.wall();
     const auto field = tube.field(elements, scene.kernel(), state.configuration.shape, force);
     examples::DecayReport report(options.directory);
     const auto velocity = [&](const Meridian<double>& points) { return field.velocity(points); };

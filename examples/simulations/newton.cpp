@@ -5,6 +5,8 @@ namespace examples {
 
 Newton::Newton(const Scene& scene, const Params& params) : solver_(std::make_unique<Solver>(scene, params)) {}
 
+Newton::Newton(Newton&&) noexcept = default;
+
 Newton::~Newton() = default;
 
 Newton::State Newton::solve(const axistokes::Meridian<double>& shape, double area, double volume) {
@@ -13,6 +15,10 @@ Newton::State Newton::solve(const axistokes::Meridian<double>& shape, double are
 
 std::vector<std::complex<double>> Newton::growth_rates(const State& state) {
     return solver_->growth_rates(state);
+}
+
+std::vector<std::complex<double>> Newton::growth_rates(const State& state, double step) {
+    return solver_->growth_rates(state, step);
 }
 
 }  // namespace examples

@@ -3,6 +3,13 @@
 
 namespace examples {
 
+Simulation free_simulation(const AnyDiscretization& discretization, const Law& law, const Drive& drive,
+                           const axistokes::Meridian<double>& shape, const axistokes::SimulationParams<double>& params,
+                           axistokes::ExtrapolatedEulerOfOrder steps) {
+    return Simulation(Scene(OptionalTubeKernel(OptionalTubeImages()), discretization, law, drive, Solver(), AnyWall()),
+                      steps, shape, params);
+}
+
 OptionalTubeKernel kernel_for(const Surroundings& surroundings, std::optional<double> tolerance) {
     const auto with = [&](auto params) {
         params.tolerance = tolerance.value_or(params.tolerance);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "command_line.hpp"
+#include <axistokes/io/atomic_file.hpp>
 #include "csv_input.hpp"
 #include <axistokes/core.hpp>
 

@@ -33,6 +33,11 @@ inline AnyDiscretization discretization_for(const MethodOptions& method) {
     return AnyDiscretization::of(method.spectral(), accuracy ? std::optional(accuracy->quadrature) : std::nullopt);
 }
 
+/// One body in free space.
+Simulation free_simulation(const AnyDiscretization& discretization, const Law& law, const Drive& drive,
+                           const axistokes::Meridian<double>& shape, const axistokes::SimulationParams<double>& params,
+                           axistokes::ExtrapolatedEulerOfOrder steps = axistokes::ExtrapolatedEulerOfOrder(1));
+
 /// Of a tube without a mesh, with that tolerance or the kernel's own.
 OptionalTubeKernel kernel_for(const Surroundings& surroundings, std::optional<double> tolerance);
 /// Likewise, with what a preset takes.
@@ -47,13 +52,16 @@ class Newton {
     using State = Solver::State;
     using Params = Solver::Params;
 
-    Newton(const Scene& scene, const Params& params);
+    explicit Newton(const Scene& scene, const Params& params = {});
+    Newton(Newton&&) noexcept;
     Newton(const Newton&) = delete;
     Newton& operator=(const Newton&) = delete;
     ~Newton();
 
     State solve(const axistokes::Meridian<double>& shape, double area, double volume);
     std::vector<std::complex<double>> growth_rates(const State& state);
+    /// By differences of the full equations.
+    std::vector<std::complex<double>> growth_rates(const State& state, double step);
 
   private:
     std::unique_ptr<Solver> solver_;
