@@ -20,3 +20,6 @@ execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/consumer -B ${WO
                 COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/build COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK_DIR}/build/consumer COMMAND_ERROR_IS_FATAL ANY)
+if(MODE STREQUAL "find_package")
+  execute_process(COMMAND ${WORK_DIR}/build/vesicle COMMAND_ERROR_IS_FATAL ANY)
+endif()

@@ -17,7 +17,9 @@ write_basic_package_version_file(${axistokes_generated}/axistokesConfigVersion.c
 install(TARGETS axistokes EXPORT axistokesTargets)
 install(EXPORT axistokesTargets NAMESPACE axistokes:: DESTINATION ${axistokes_package_dir})
 install(FILES ${axistokes_generated}/axistokesConfig.cmake ${axistokes_generated}/axistokesConfigVersion.cmake
+              ${PROJECT_SOURCE_DIR}/.cmake/Compiled.cmake
         DESTINATION ${axistokes_package_dir})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/.cmake/compiled DESTINATION ${axistokes_package_dir})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/axistokes DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.hpp")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -35,11 +35,8 @@ class DenseLU {
   public:
     using Scalar = S;
 
-    void factorize(const Matrix<S>& a) {
-        lu_.compute(a);
-        detail::require_regular(detail::regular<S>(lu_), "dense LU");
-    }
-    Vector<S> solve(const Vector<S>& b) const { return lu_.solve(b); }
+    void factorize(const Matrix<S>& a);
+    Vector<S> solve(const Vector<S>& b) const;
 
   private:
     Eigen::PartialPivLU<Matrix<S>> lu_;
@@ -61,5 +58,18 @@ class DenseQR {
   private:
     Eigen::ColPivHouseholderQR<Matrix<S>> qr_;
 };
+
+// Defined outside the class for compiled.hpp: members inside it are implicitly inline.
+
+template <class S>
+void DenseLU<S>::factorize(const Matrix<S>& a) {
+    lu_.compute(a);
+    detail::require_regular(detail::regular<S>(lu_), "dense LU");
+}
+
+template <class S>
+Vector<S> DenseLU<S>::solve(const Vector<S>& b) const {
+    return lu_.solve(b);
+}
 
 }  // namespace axistokes
