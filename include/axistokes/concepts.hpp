@@ -8,6 +8,7 @@
 #include "quadrature/regular_quadrature.hpp"
 
 #include <concepts>
+#include <type_traits>
 #include <vector>
 
 namespace axistokes {
@@ -19,6 +20,17 @@ template <class S>
 struct AnyQuadrature {
     RegularQuadrature<S> operator()(const S&) const;
 };
+
+/// Stands for a kernel with images where the concept asks about one: a disjunction would hide what is missing.
+template <class S>
+struct SomeImages {
+    using Scalar = S;
+    S gap(const Point<S>&) const;
+    template <class Quadrature>
+    void regular(const Meridian<S>&, const Quadrature&, Matrix<S>&) const;
+};
+template <class K>
+using ImagedOrSome = std::conditional_t<K::has_images, K, SomeImages<typename K::Scalar>>;
 
 template <class K>
 concept KernelWithImages = requires(const K& kernel, const Point<typename K::Scalar>& point,
@@ -46,7 +58,7 @@ concept GreenKernel = requires(const K& kernel, Point<typename K::Scalar> target
     { kernel.singular(target, coordinate, coordinate, count, out) } -> std::same_as<void>;
     { kernel.singular_split(target, coordinate, coordinate, count, out, out) } -> std::same_as<void>;
 }
-&&(!K::has_images || detail::KernelWithImages<K>);
+&&detail::KernelWithImages<detail::ImagedOrSome<K>>;
 
 /// DiscretizationFor<Kernel>: nodes on the meridian and the operators on them. `surface(meridian, parts)` gives the
 /// frozen geometry: nodal weights of Int dA, outward normals, and, if they are wanted, curvatures and the linear
@@ -84,6 +96,10 @@ concept Background = requires(const B& background, Point<typename B::Scalar> poi
     { background.normal_load(point) } -> std::convertible_to<typename B::Scalar>;
     { background.velocity_scale() } -> std::convertible_to<typename B::Scalar>;
 };
+
+/// All policies of a scene compute with the kernel's scalar type.
+template <class Policy, class Kernel>
+concept UsesScalarOf = std::same_as<typename Policy::Scalar, typename Kernel::Scalar>;
 
 /// LinearSolver: `factorize(A)` prepares a square dense matrix, `solve(b)` returns x with A x = b. Both throw
 /// SimulationFailure when the matrix is singular or an iteration does not converge.

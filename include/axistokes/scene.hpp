@@ -77,7 +77,8 @@ Meridian<S> shifted(Meridian<S> shape, const S& along) {
 /// const afterwards, but for the solver and the wall, which may keep factors between solves.
 template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Law, Background Flow, LinearSolver Solver,
           WallFor<Kernel, Discretization> Wall = NoWall>
-requires LawsFor<Law, typename Discretization::Surface>
+requires UsesScalarOf<Law, Kernel> && UsesScalarOf<Flow, Kernel> && UsesScalarOf<Solver, Kernel> &&
+    LawsFor<Law, typename Discretization::Surface>
 class Scene {
   public:
     using Scalar = typename Kernel::Scalar;

@@ -90,7 +90,8 @@ void validate(const SimulationParams<S>& p) {
 template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Law, Background Flow, class Integrator,
           LinearSolver Solver, WallFor<Kernel, Discretization> Wall = NoWall,
           StepControlFor<typename Kernel::Scalar> Control = StepControl<typename Kernel::Scalar>>
-requires LawsFor<Law, typename Discretization::Surface> &&
+requires UsesScalarOf<Law, Kernel> && UsesScalarOf<Flow, Kernel> && UsesScalarOf<Solver, Kernel> &&
+    LawsFor<Law, typename Discretization::Surface> &&
     TimeIntegratorFor<Integrator, Scene<Kernel, Discretization, Law, Flow, Solver, Wall>>
 class Simulator {
   public:

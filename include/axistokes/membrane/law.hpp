@@ -77,7 +77,8 @@ concept LawFor = detail::NamedConstraint<L> && detail::RigidLaw<detail::RigidOrS
 /// A body of one of several kinds, chosen at run time: a scene of OneOf<Vesicle<>, RigidBody<>> holds both.
 template <class... Laws>
 struct OneOf {
-    using Scalar = typename std::common_type_t<typename Laws::Scalar...>;
+    using Scalar = std::common_type_t<typename Laws::Scalar...>;
+    static_assert((std::is_same_v<typename Laws::Scalar, Scalar> && ...), "the laws have one scalar type");
     std::variant<Laws...> law;
 
     template <class L>
