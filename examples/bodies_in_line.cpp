@@ -42,6 +42,9 @@ int main(int argc, char** argv) {
         require(c.distance > 0 && std::isfinite(c.distance), "distance", c.distance, "> 0 and finite");
         require(c.frames >= 2 && c.frames <= 1000, "frames", c.frames, "in [2, 1000]");
         c.spheres = kind == "sphere";
+        for (const char* shape : {"--excess-area", "--initial"}) {
+            require(!c.spheres || !app.given(shape), shape, "given", "absent with --kind sphere");
+        }
         c.run.method.check();
         require(!c.run.method.newton(), "--stationary", c.run.method.stationary,
                 "march or auto: bodies in line are followed in time");
@@ -75,7 +78,19 @@ int main(int argc, char** argv) {
         c.parameters = {{"kind", kind}, {"count", c.count}, {"distance", c.distance}};
         if (!c.spheres) {
             c.parameters["excess_area"] = c.vesicle.excess_area;
+            c.parameters["initial"] = c.vesicle.kind;
         }
+        if (tube.confinement) {
+            c.parameters["confinement"] = *tube.confinement;
+        }
+        if (by_bond.given()) {
+            c.parameters["bond"] = bond;
+        } else if (bounded.given()) {
+            c.parameters["capillary_number"] = capillary_number;
+        } else if (unbounded.given()) {
+            c.parameters["unbounded_capillary_number"] = unbounded_capillary_number;
+        }
+        c.parameters["time"] = duration;
         return examples::run_line(c);
     });
 }

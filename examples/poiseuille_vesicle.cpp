@@ -44,8 +44,10 @@ int main(int argc, char** argv) {
         const axistokes::Poiseuille<double> flow(capillary_number, tube.radius());
         const auto initial = [&](axistokes::Index elements) { return tube.shape(vesicle, elements); };
         examples::VesicleCase c{run, initial, vesicle.excess_area, examples::Drive(flow), {}, flow.mean_velocity(), {}};
-        c.parameters = {
-            {"excess_area", vesicle.excess_area}, {"capillary_number", capillary_number}, {"method", wall.method}};
+        c.parameters = {{"excess_area", vesicle.excess_area},
+                        {"capillary_number", capillary_number},
+                        {"confinement", *tube.confinement},
+                        {"method", wall.method}};
         c.surroundings.tube_radius = tube.radius();
         if (wall.meshed()) {
             const auto accuracy = run.method.accuracy();

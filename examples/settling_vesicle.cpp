@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
         c.parameters = {{"excess_area", vesicle.excess_area}, {"bond", bond}};
         if (tube.confinement) {
             c.surroundings.tube_radius = tube.radius();
+            c.parameters["confinement"] = *tube.confinement;
         }
         return examples::run_vesicle(c);
     });

@@ -272,9 +272,10 @@ int main(int argc, char** argv) {
     examples::Range reduced_volume(0.7, 0.98, 8);
     double capillary_number = 10;
     Settings settings;
-    const examples::Option cases = app.text("--cases", input,
-                           "CSV file with columns confinement (R0 over the tube's radius), reduced_volume and "
-                           "capillary_number");
+    const examples::Option cases =
+        app.text("--cases", input,
+                 "CSV file with columns confinement (R0 over the tube's radius), reduced_volume and "
+                 "capillary_number");
     confinement.add_to(app, "--confinement", "R0 over the tube's radius").excludes(cases);
     reduced_volume.add_to(app, "--reduced-volume", "volume over that of the sphere of equal area").excludes(cases);
     app.number("--capillary-number", capillary_number, "Ca = eta u_max R0^2 / kappa").excludes(cases);

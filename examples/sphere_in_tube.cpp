@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
             {},
             dragged ? 0 : Poiseuille<double>(1, radius).mean_velocity(),
             details,
-            {{"method", wall.method}, {"tolerance", quadrature}}};
+            {{"confinement", *tube.confinement}, {"flow", flow}, {"method", wall.method}, {"tolerance", quadrature}}};
         c.surroundings.tube_radius = radius;
         if (wall.meshed()) {
             c.surroundings.wall = wall.params(tolerance.value_or(accuracy ? accuracy->wall : 1e-8));

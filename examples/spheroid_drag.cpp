@@ -101,6 +101,8 @@ int main(int argc, char** argv) {
         }
         if (tube.confinement) {
             c.surroundings.tube_radius = tube.radius();
+            c.parameters["confinement"] = *tube.confinement;
+            c.parameters["flow"] = flow;
         }
         return examples::run_body(c);
     });

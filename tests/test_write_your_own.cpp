@@ -3,6 +3,7 @@
 #include "../examples/write_your_own/drop.hpp"
 #include "../examples/write_your_own/explicit_midpoint.hpp"
 #include "../examples/write_your_own/full_pivot_lu.hpp"
+#include "../examples/write_your_own/sphere_above_vesicle.hpp"
 #include "../examples/write_your_own/uniaxial_extension.hpp"
 #include "catch.hpp"
 #include "support.hpp"
@@ -134,6 +135,27 @@ TEST_CASE("your policies together make a simulator", "[write_your_own]") {
     CHECK(last.time == Approx(0.02));
     CHECK(std::abs(last.volume_drift) < 1e-12);
     CHECK(std::abs(last.area_drift) < 1e-12);
+}
+
+TEST_CASE("your scene of several bodies: far apart they drag each other along", "[write_your_own]") {
+    const double bond = 20;
+    const double distance = 50;
+    auto together = write_your_own::sphere_above_vesicle(bond, distance, 24);
+    auto far = write_your_own::sphere_above_vesicle(bond, 1e7, 24);
+    REQUIRE(together.bodies() == 2);
+    // Of a point force, the weight of a sphere; the bodies' own sizes come in with 1/d^3.
+    const double drift = -bond / (3 * distance);
+    for (const std::size_t body : {0u, 1u}) {
+        const double alone = far.instant(body).velocity;
+        INFO(body << ": " << together.instant(body).velocity - alone - drift);
+        CHECK(std::abs(together.instant(body).velocity - alone - drift) < 3e-6 * bond);
+    }
+    CHECK(far.instant(1).velocity == Approx(-2.0 / 9 * bond).epsilon(1e-6));
+    // Prolate, the vesicle below is the faster one.
+    auto near = write_your_own::sphere_above_vesicle(bond, 3, 24);
+    const double before = near.configuration(1).position - near.configuration(0).position;
+    near.step();
+    CHECK(near.configuration(1).position - near.configuration(0).position > before);
 }
 
 TEST_CASE("your law: a drop settles at 4/15 of its Bond number", "[write_your_own]") {

@@ -108,6 +108,10 @@ Option CommandLine::flag(const std::string& name, bool& value, const std::string
     return Option(app_->add_flag(name, value, description));
 }
 
+bool CommandLine::given(const std::string& name) const {
+    return app_->count(name) > 0;
+}
+
 int CommandLine::run(int argc, char** argv, const std::function<int()>& run) {
     const auto complain = [&](const std::exception& error, ExitCode code) {
         std::cerr << program_ << ": " << error.what() << '\n';

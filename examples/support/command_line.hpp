@@ -59,6 +59,8 @@ class CommandLine {
                 const std::function<void(const std::string&)>& read);
     Option flag(const std::string& name, bool& value, const std::string& description);
 
+    bool given(const std::string& name) const;
+
     /// The program's exit code; `run` returns one and is called once the options have their values.
     int run(int argc, char** argv, const std::function<int()>& run);
 
