@@ -6,7 +6,15 @@ if(AXISTOKES_WARNINGS_AS_ERRORS)
   target_compile_options(axistokes_warnings INTERFACE -Werror)
 endif()
 
+# -O3 costs a fifth more of the compile time than -O2, and no program here runs faster for it.
+add_compile_options($<$<CONFIG:Release>:-O2>)
+
+# What is built runs on processors like this one. The kernels take half of the time with AVX2. The tests do without.
 add_library(axistokes_native INTERFACE)
 if(AXISTOKES_NATIVE)
   target_compile_options(axistokes_native INTERFACE -march=native)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # g++ 12 takes what its own AVX-512 intrinsics leave undefined on purpose for forgotten.
+    target_compile_options(axistokes_native INTERFACE -Wno-uninitialized -Wno-maybe-uninitialized)
+  endif()
 endif()
