@@ -10,3 +10,5 @@ add_library(axistokes_native INTERFACE)
 if(AXISTOKES_NATIVE)
   target_compile_options(axistokes_native INTERFACE -march=native)
 endif()
+# The library and what links it must agree on this.
+target_link_libraries(axistokes_compiled PUBLIC axistokes_native PRIVATE axistokes_warnings)

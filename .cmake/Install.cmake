@@ -19,5 +19,5 @@ install(EXPORT axistokesTargets NAMESPACE axistokes:: DESTINATION ${axistokes_pa
 install(FILES ${axistokes_generated}/axistokesConfig.cmake ${axistokes_generated}/axistokesConfigVersion.cmake
         DESTINATION ${axistokes_package_dir})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/axistokes DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp")
+        FILES_MATCHING PATTERN "compiled.hpp" EXCLUDE PATTERN "*.hpp")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

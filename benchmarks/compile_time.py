@@ -5,7 +5,8 @@
 Processor seconds of the compiler, so that the load of the machine matters little. The reference is compiled anew
 before each program: other load slows memory, too, and the ratio is taken within a minute.
 
-    benchmarks/compile_time.py                    minimal.cpp
+    benchmarks/compile_time.py                    minimal.cpp, alone and with axistokes::compiled
+    benchmarks/compile_time.py --library          the sources of axistokes::compiled, too
     benchmarks/compile_time.py --examples         every source file of the examples, too
     benchmarks/compile_time.py --source OTHER     another checkout
 """
@@ -48,32 +49,38 @@ def main():
     parser.add_argument("--include", action="append", default=["/usr/include/eigen3"],
                         help="further directory of headers (repeatable)")
     parser.add_argument("--repeat", type=int, default=1, help="take the least of so many ratios")
+    parser.add_argument("--library", action="store_true", help="the sources of axistokes::compiled, too")
     parser.add_argument("--examples", action="store_true", help="all sources of the examples, too")
     arguments = parser.parse_args()
 
     source = arguments.source
     minimal = source / "examples" / "minimal.cpp"
-    programs = [("minimal.cpp", minimal)]
+    programs = [("minimal.cpp", minimal, [])]
+    library = sorted((source / ".cmake" / "compiled").glob("*.cpp"))
+    if library:
+        programs.append(("minimal.cpp with axistokes::compiled", minimal, ["-DAXISTOKES_COMPILED"]))
+    if arguments.library:
+        programs += [(str(p.relative_to(source)), p, []) for p in library]
     if arguments.examples:
         examples = sorted((source / "examples").glob("**/*.cpp"))
-        programs += [(str(p.relative_to(source)), p) for p in examples if p != minimal]
+        programs += [(str(p.relative_to(source)), p, []) for p in examples if p != minimal]
 
     command = [arguments.compiler, "-std=c++20", *shlex.split(arguments.flags)]
     for directory in [source / "include", *arguments.include]:
         command += ["-isystem", str(directory)]
-    width = max(len(name) for name, _ in programs)
+    width = max(len(name) for name, _, _ in programs)
     print(f"{'':{width}}    CPU s    LU s   ratio")
     with tempfile.TemporaryDirectory() as work:
         reference = pathlib.Path(work) / "reference.cpp"
         reference.write_text(REFERENCE)
         output = ["-o", str(pathlib.Path(work) / "output.o")]
 
-        def measure(path):
-            return processor_seconds([*command, "-c", str(path), *output])
+        def measure(path, definitions):
+            return processor_seconds([*command, *definitions, "-c", str(path), *output])
 
         total = 0.0
-        for name, path in programs:
-            runs = [(measure(path), measure(reference)) for _ in range(arguments.repeat)]
+        for name, path, definitions in programs:
+            runs = [(measure(path, definitions), measure(reference, [])) for _ in range(arguments.repeat)]
             seconds, unit = min(runs, key=lambda run: run[0] / run[1])
             total += seconds
             print(f"{name:{width}} {seconds:8.1f} {unit:7.2f} {seconds / unit:7.2f}", flush=True)

@@ -28,3 +28,7 @@
 #include "wall/passage.hpp"
 #include "wall/points_profile.hpp"
 #include "wall/wall_mesh.hpp"
+
+#ifdef AXISTOKES_COMPILED
+#include "compiled.hpp"
+#endif

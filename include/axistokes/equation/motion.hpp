@@ -107,32 +107,10 @@ class MotionEquation {
 
     /// `mobility` and `background` are complete.
     MotionEquation(const std::vector<Body>& bodies, const Matrix<S>& mobility, const Vector<S>& background,
-                   const S& implicit_time)
-        : bodies_(bodies), mobility_(mobility), background_(background) {
-        Index begin = 0;
-        for (const Body& body : bodies_) {
-            parts_.push_back(Kinds::visit(body.law, [&](const auto& law) { return part(law, body, implicit_time); }));
-            parts_.back().begin = begin;
-            begin += 2 * body.surface.size();
-        }
-    }
+                   const S& implicit_time);
 
     template <class Solver>
-    std::vector<MobilitySolution<S>> solve(Solver& solver) {
-        response();
-        Vector<S> y(unknowns_);
-        if (unknowns_ > 0) {
-            system();
-            solver.factorize(matrix_);
-            y = solver.solve(rhs_);
-        }
-        const Vector<S> velocity = velocity_given_ + response_ * y;
-        std::vector<MobilitySolution<S>> solutions;
-        for (std::size_t b = 0; b < bodies_.size(); ++b) {
-            solutions.push_back(solution(parts_[b], bodies_[b], y, velocity));
-        }
-        return solutions;
-    }
+    std::vector<MobilitySolution<S>> solve(Solver& solver);
 
   private:
     static constexpr Index none = -1;
@@ -319,6 +297,36 @@ class MotionEquation {
     Matrix<S> matrix_;
     Vector<S> rhs_;
 };
+
+template <class S, class Surface, class Law>
+MotionEquation<S, Surface, Law>::MotionEquation(const std::vector<Body>& bodies, const Matrix<S>& mobility,
+                                                const Vector<S>& background, const S& implicit_time)
+    : bodies_(bodies), mobility_(mobility), background_(background) {
+    Index begin = 0;
+    for (const Body& body : bodies_) {
+        parts_.push_back(Kinds::visit(body.law, [&](const auto& law) { return part(law, body, implicit_time); }));
+        parts_.back().begin = begin;
+        begin += 2 * body.surface.size();
+    }
+}
+
+template <class S, class Surface, class Law>
+template <class Solver>
+std::vector<MobilitySolution<S>> MotionEquation<S, Surface, Law>::solve(Solver& solver) {
+    response();
+    Vector<S> y(unknowns_);
+    if (unknowns_ > 0) {
+        system();
+        solver.factorize(matrix_);
+        y = solver.solve(rhs_);
+    }
+    const Vector<S> velocity = velocity_given_ + response_ * y;
+    std::vector<MobilitySolution<S>> solutions;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        solutions.push_back(solution(parts_[b], bodies_[b], y, velocity));
+    }
+    return solutions;
+}
 
 /// That of one body in a given mobility and background.
 template <class S, class Surface, class Law, class Solver>
