@@ -5,6 +5,7 @@
 
 #include "../geometry/meridian.hpp"
 #include "../geometry/trigonometric.hpp"
+#include "../operators.hpp"
 
 #include <cmath>
 #include <memory>
@@ -36,17 +37,9 @@ struct SpectralSurface {
     std::shared_ptr<const TrigonometricBasis<S>> basis;
 
     Index size() const { return nodes.nodes(); }
-    Vector<S> positions() const {
-        Vector<S> x(2 * size());
-        x << nodes.r, nodes.z;
-        return x;
-    }
+    Vector<S> positions() const { return detail::stacked(nodes.r, nodes.z); }
     /// Unit normals, stacked.
-    Vector<S> normals() const {
-        Vector<S> n(2 * size());
-        n << normal_r, normal_z;
-        return n;
-    }
+    Vector<S> normals() const { return detail::stacked(normal_r, normal_z); }
     /// Operator -> scalar per node, as a stacked field along the frozen normals.
     Operator along_normal(const Operator& scalar) const {
         Operator spread(2 * size(), scalar.cols());
