@@ -12,6 +12,12 @@
 #ifndef AXISTOKES_GEOMETRY
 #define AXISTOKES_GEOMETRY extern template
 #endif
+#ifndef AXISTOKES_ALGEBRA
+#define AXISTOKES_ALGEBRA extern template
+#endif
+#ifndef AXISTOKES_TUBE
+#define AXISTOKES_TUBE extern template
+#endif
 #ifndef AXISTOKES_ELEMENTS
 #define AXISTOKES_ELEMENTS extern template
 #endif
@@ -42,6 +48,12 @@ AXISTOKES_GEOMETRY void write_csv(const std::filesystem::path&, const std::vecto
 AXISTOKES_GEOMETRY void write_vtk_surface(const std::filesystem::path&, const std::vector<Column<double>>&, Index);
 AXISTOKES_GEOMETRY void write_vtk_flow(const std::filesystem::path&, const FlowField<double>&, const double&);
 AXISTOKES_GEOMETRY std::vector<Column<double>> history_columns(const std::vector<StepRecord<double>>&);
+
+AXISTOKES_TUBE void detail::TubeAssembly<double>::add_to(Matrix<double>&,
+                                                         const detail::TubeAssembly<double>::Quadrature&);
+
+AXISTOKES_ALGEBRA void DenseLU<double>::factorize(const Matrix<double>&);
+AXISTOKES_ALGEBRA Vector<double> DenseLU<double>::solve(const Vector<double>&) const;
 
 #define AXISTOKES_LAYERS(where, basis, kernel)                                                     \
     where Matrix<double> detail::single_layer(const detail::basis<double>&, const kernel<double>&, \

@@ -136,8 +136,7 @@ class MotionEquation {
     }
 
     template <class Kind>
-    Part part(const Kind& law, const Body& body, const S& time) {
-        Part p;
+    void part(const Kind& law, const Body& body, const S& time, Part& p) {
         const Surface& surface = body.surface;
         if constexpr (Kind::constraint == Constraint::rigid) {
             p.force = take(2 * surface.size());
@@ -171,7 +170,6 @@ class MotionEquation {
                 }
             }
         }
-        return p;
     }
 
     /// u = u_0 + V y at all nodes.
@@ -326,12 +324,12 @@ class MotionEquation {
 template <class S, class Surface, class Law>
 MotionEquation<S, Surface, Law>::MotionEquation(const std::vector<Body>& bodies, const Matrix<S>& mobility,
                                                 const Vector<S>& background, const S& implicit_time)
-    : bodies_(bodies), mobility_(mobility), background_(background) {
+    : bodies_(bodies), mobility_(mobility), background_(background), parts_(bodies.size()) {
     Index begin = 0;
-    for (const Body& body : bodies_) {
-        parts_.push_back(Kinds::visit(body.law, [&](const auto& law) { return part(law, body, implicit_time); }));
-        parts_.back().begin = begin;
-        begin += 2 * body.surface.size();
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        Kinds::visit(bodies_[b].law, [&](const auto& law) { part(law, bodies_[b], implicit_time, parts_[b]); });
+        parts_[b].begin = begin;
+        begin += 2 * bodies_[b].surface.size();
     }
 }
 
@@ -346,9 +344,9 @@ std::vector<MobilitySolution<S>> MotionEquation<S, Surface, Law>::solve(Solver& 
         y = solver.solve(rhs_);
     }
     const Vector<S> velocity = velocity_given_ + applied(response_, y);
-    std::vector<MobilitySolution<S>> solutions;
+    std::vector<MobilitySolution<S>> solutions(bodies_.size());
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-        solutions.push_back(solution(parts_[b], bodies_[b], y, velocity));
+        solutions[b] = solution(parts_[b], bodies_[b], y, velocity);
     }
     return solutions;
 }

@@ -35,15 +35,23 @@ class DenseLU {
   public:
     using Scalar = S;
 
-    void factorize(const Matrix<S>& a) {
-        lu_.compute(a);
-        detail::require_regular(detail::regular<S>(lu_), "dense LU");
-    }
-    Vector<S> solve(const Vector<S>& b) const { return lu_.solve(b); }
+    void factorize(const Matrix<S>& a);
+    Vector<S> solve(const Vector<S>& b) const;
 
   private:
     Eigen::PartialPivLU<Matrix<S>> lu_;
 };
+
+template <class S>
+void DenseLU<S>::factorize(const Matrix<S>& a) {
+    lu_.compute(a);
+    detail::require_regular(detail::regular<S>(lu_), "dense LU");
+}
+
+template <class S>
+Vector<S> DenseLU<S>::solve(const Vector<S>& b) const {
+    return lu_.solve(b);
+}
 
 /// Householder QR with column pivoting: backward stable without growth, and reveals the rank; some five times the cost
 /// of LU.

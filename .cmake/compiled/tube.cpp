@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define AXISTOKES_TUBE template
+#include <axistokes/compiled.hpp>
