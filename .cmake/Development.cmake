@@ -18,3 +18,5 @@ if(AXISTOKES_NATIVE)
     target_compile_options(axistokes_native INTERFACE -Wno-uninitialized -Wno-maybe-uninitialized)
   endif()
 endif()
+# The library and what links it must agree on this.
+target_link_libraries(axistokes_compiled PUBLIC axistokes_native PRIVATE axistokes_warnings)

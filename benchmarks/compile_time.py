@@ -6,7 +6,7 @@ Processor seconds of the compiler, so that the load of the machine matters littl
 before each program: other load slows memory, too, and the ratio is taken within a minute.
 
     benchmarks/compile_time.py                    minimal.cpp, alone and with axistokes::compiled
-    benchmarks/compile_time.py --library          what axistokes::compiled itself takes, too
+    benchmarks/compile_time.py --library          the sources of axistokes::compiled, too
     benchmarks/compile_time.py --examples         every source file of the examples, too
     benchmarks/compile_time.py --source OTHER     another checkout
 """
@@ -60,7 +60,7 @@ def main():
     if library:
         programs.append(("minimal.cpp with axistokes::compiled", minimal, ["-DAXISTOKES_COMPILED"]))
     if arguments.library:
-        programs += [(f"axistokes::compiled, {p.name}", p, []) for p in library]
+        programs += [(str(p.relative_to(source)), p, []) for p in library]
     if arguments.examples:
         examples = sorted((source / "examples").glob("**/*.cpp"))
         programs += [(str(p.relative_to(source)), p, []) for p in examples if p != minimal]

@@ -6,8 +6,7 @@
 #pragma once
 
 #include "../geometry/meridian.hpp"
-
-#include <Eigen/SparseCore>
+#include "../operators.hpp"
 
 #include <cmath>
 #include <utility>
@@ -38,28 +37,17 @@ struct LinearSurface {
     Operator tension_force;      // 2n x (n - 1): tension of each element -> force density, -(1/W) dA/dx
 
     Index size() const { return nodes.nodes(); }
-    Vector<S> positions() const {
-        Vector<S> x(2 * size());
-        x << nodes.r, nodes.z;
-        return x;
-    }
+    Vector<S> positions() const { return detail::stacked(nodes.r, nodes.z); }
     /// Unit normals, stacked.
-    Vector<S> normals() const {
-        Vector<S> n(2 * size());
-        n << normal_r, normal_z;
-        return n;
-    }
+    Vector<S> normals() const { return detail::stacked(normal_r, normal_z); }
     /// Operator -> scalar per node, as a stacked field along the frozen normals.
     Operator along_normal(const Operator& scalar) const {
-        std::vector<Eigen::Triplet<S>> entries;
-        entries.reserve(static_cast<std::size_t>(2 * size()));
-        for (Index i = 0; i < size(); ++i) {
-            entries.emplace_back(static_cast<int>(i), static_cast<int>(i), normal_r[i]);
-            entries.emplace_back(static_cast<int>(size() + i), static_cast<int>(i), normal_z[i]);
-        }
-        Operator spread(2 * size(), size());
-        spread.setFromTriplets(entries.begin(), entries.end());
-        return spread * scalar;
+        detail::Triplets<S> entries;
+        detail::for_each_entry(scalar, [&](Index i, Index j, const S& value) {
+            detail::add_entry(entries, i, j, value * normal_r[i]);
+            detail::add_entry(entries, size() + i, j, value * normal_z[i]);
+        });
+        return detail::assembled(2 * size(), scalar.cols(), entries);
     }
     /// Int of a stacked field's normal component over the surface; exactly 0 for a translation.
     S flux(const Vector<S>& field) const { return volume_gradient.dot(field); }
@@ -89,7 +77,7 @@ struct LinearSurface {
         return result;
     }
     /// Surface divergence of a stacked nodal field, at the nodes.
-    Vector<S> surface_divergence(const Vector<S>& field) const { return at_nodes(divergence * field); }
+    Vector<S> surface_divergence(const Vector<S>& field) const { return at_nodes(detail::applied(divergence, field)); }
 };
 
 namespace detail {
@@ -135,14 +123,8 @@ class LinearSurfaceBuilder {
     }
 
   private:
-    using Triplets = std::vector<Eigen::Triplet<S>>;
+    using Triplets = detail::Triplets<S>;
     using Operator = typename LinearSurface<S>::Operator;
-
-    static Operator assemble(Index rows, Index columns, const Triplets& triplets) {
-        Operator result(rows, columns);
-        result.setFromTriplets(triplets.begin(), triplets.end());
-        return result;
-    }
 
     void metric() {
         using std::sqrt;
@@ -212,8 +194,8 @@ class LinearSurfaceBuilder {
         const S pi = pi_value<S>();
         Triplets entries;
         const auto add = [&](Index i, Index j, const S& w) {
-            entries.emplace_back(static_cast<int>(i), static_cast<int>(j), w);
-            entries.emplace_back(static_cast<int>(i), static_cast<int>(i), -w);
+            add_entry(entries, i, j, w);
+            add_entry(entries, i, i, -w);
         };
         for (Index i = 1; i + 1 < n_; ++i) {
             for (const Index j : {i - 1, i + 1}) {
@@ -228,7 +210,7 @@ class LinearSurfaceBuilder {
             add(pole, pole + step, w1);
             add(pole, pole + 2 * step, w2);
         }
-        s_.laplacian = assemble(n_, n_, entries);
+        s_.laplacian = assembled(n_, n_, entries);
     }
 
     /// Lap_s x = -2 H n. The radial component of the vector x is Lap_s r - r/r^2 (its unit vector turns with the
@@ -248,20 +230,15 @@ class LinearSurfaceBuilder {
             return S(S(1) + squared_turn(first) / 16 + growth / 8);
         };
         Triplets entries;
-        for (Index column = 0; column < n_; ++column) {
-            for (typename Operator::InnerIterator it(s_.laplacian, column); it; ++it) {
-                const Index i = it.row();
-                const int row = static_cast<int>(i);
-                entries.emplace_back(row, static_cast<int>(column), -s_.normal_r[i] * it.value() / 2);
-                entries.emplace_back(row, static_cast<int>(n_ + column),
-                                     -pole_factor(i) * s_.normal_z[i] * it.value() / 2);
-            }
-        }
+        for_each_entry(s_.laplacian, [&](Index i, Index j, const S& value) {
+            add_entry(entries, i, j, -s_.normal_r[i] * value / 2);
+            add_entry(entries, i, n_ + j, -pole_factor(i) * s_.normal_z[i] * value / 2);
+        });
         for (Index i = 1; i + 1 < n_; ++i) {
-            entries.emplace_back(static_cast<int>(i), static_cast<int>(i), s_.normal_r[i] / (2 * m_.r[i] * m_.r[i]));
+            add_entry(entries, i, i, s_.normal_r[i] / (2 * m_.r[i] * m_.r[i]));
         }
-        s_.mean_curvature_of = assemble(n_, 2 * n_, entries);
-        s_.mean_curvature = s_.mean_curvature_of * s_.positions();
+        s_.mean_curvature_of = assembled(n_, 2 * n_, entries);
+        s_.mean_curvature = applied(s_.mean_curvature_of, s_.positions());
         s_.gauss_curvature = s_.mean_curvature.cwiseAbs2();
         for (Index i = 1; i + 1 < n_; ++i) {
             const S azimuthal = s_.normal_r[i] / m_.r[i];
@@ -277,19 +254,16 @@ class LinearSurfaceBuilder {
             for (const auto& [i, j] : {std::pair{e, e + 1}, std::pair{e + 1, e}}) {
                 const Point<S> gradient = frustum_area_gradient(m_, i, j, s_.element_length[e]);
                 const bool pole = i == 0 || i == n_ - 1;
-                const int element = static_cast<int>(e);
-                const int node = static_cast<int>(i);
-                const int node_z = static_cast<int>(n_ + i);
                 if (!pole) {
-                    divergence.emplace_back(element, node, gradient.r / s_.element_area[e]);
-                    force.emplace_back(node, element, -gradient.r / s_.weight[i]);
+                    add_entry(divergence, e, i, gradient.r / s_.element_area[e]);
+                    add_entry(force, i, e, -gradient.r / s_.weight[i]);
                 }
-                divergence.emplace_back(element, node_z, gradient.z / s_.element_area[e]);
-                force.emplace_back(node_z, element, -gradient.z / s_.weight[i]);
+                add_entry(divergence, e, n_ + i, gradient.z / s_.element_area[e]);
+                add_entry(force, n_ + i, e, -gradient.z / s_.weight[i]);
             }
         }
-        s_.divergence = assemble(n_ - 1, 2 * n_, divergence);
-        s_.tension_force = assemble(2 * n_, n_ - 1, force);
+        s_.divergence = assembled(n_ - 1, 2 * n_, divergence);
+        s_.tension_force = assembled(2 * n_, n_ - 1, force);
     }
 
     const Meridian<S>& m_;

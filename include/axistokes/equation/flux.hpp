@@ -15,15 +15,24 @@ Vector<S> without_flux(const Surface& surface, const Vector<S>& field) {
     return field - (surface.flux(field) / surface.flux(n)) * n;
 }
 
+/// m's rows from `row` on, of one column.
+template <class S>
+Eigen::Map<Vector<S>> part_of_column(Matrix<S>& m, Index row, Index column, Index rows) {
+    return {m.data() + column * m.rows() + row, rows};
+}
+
 /// Rows, first or also columns, of a body whose nodes start at `begin` (two for each node, r and z stacked): removes
 /// the mean normal force from what `mobility` is applied to.
 template <class S, class Surface>
 void ignore_pressure(const Surface& surface, Index begin, Matrix<S>& mobility) {
     const Vector<S> n = surface.normals();
     const Vector<S> mean = surface.volume_gradient / surface.flux(n);
-    const Vector<S> moved = mobility.middleCols(begin, n.size()) * n;
+    Vector<S> moved = Vector<S>::Zero(mobility.rows());
     for (Index j = 0; j < n.size(); ++j) {
-        mobility.col(begin + j) -= mean[j] * moved;
+        moved += n[j] * part_of_column(mobility, 0, begin + j, moved.size());
+    }
+    for (Index j = 0; j < n.size(); ++j) {
+        part_of_column(mobility, 0, begin + j, moved.size()) -= mean[j] * moved;
     }
 }
 
@@ -33,8 +42,9 @@ void stop_flux(const Surface& surface, Index begin, Matrix<S>& mobility) {
     const Vector<S> n = surface.normals();
     const Vector<S> mean = surface.volume_gradient / surface.flux(n);
     for (Index j = 0; j < mobility.cols(); ++j) {
-        const S flux = mean.dot(mobility.col(j).segment(begin, n.size()));
-        mobility.col(j).segment(begin, n.size()) -= flux * n;
+        auto part = part_of_column(mobility, begin, j, n.size());
+        const S flux = mean.dot(part);
+        part -= flux * n;
     }
 }
 

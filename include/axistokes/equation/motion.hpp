@@ -14,6 +14,7 @@
 #pragma once
 
 #include "../membrane/law.hpp"
+#include "../operators.hpp"
 #include "flux.hpp"
 
 #include <algorithm>
@@ -74,14 +75,14 @@ void complete_rank(const std::vector<EquationBody<S, Surface, Law>>& bodies, Mat
     Index begin = 0;
     for (const auto& body : bodies) {
         const Index n = 2 * body.surface.size();
-        if (is_rigid(body.law)) {
+        if (!is_rigid(body.law)) {
+            ignore_pressure<S>(body.surface, begin, mobility);
+        } else if constexpr (LawKinds<Law>::any_rigid) {
             const Vector<S> normal = body.surface.normals();
             const Vector<S> mean = body.surface.volume_gradient / body.surface.area();
             for (Index j = 0; j < n; ++j) {
-                mobility.col(begin + j).segment(begin, n) += mean[j] * normal;
+                part_of_column(mobility, begin, begin + j, n) += mean[j] * normal;
             }
-        } else {
-            ignore_pressure<S>(body.surface, begin, mobility);
         }
         begin += n;
     }
@@ -135,8 +136,7 @@ class MotionEquation {
     }
 
     template <class Kind>
-    Part part(const Kind& law, const Body& body, const S& time) {
-        Part p;
+    void part(const Kind& law, const Body& body, const S& time, Part& p) {
         const Surface& surface = body.surface;
         if constexpr (Kind::constraint == Constraint::rigid) {
             p.force = take(2 * surface.size());
@@ -150,16 +150,15 @@ class MotionEquation {
             constexpr bool inextensible = Kind::constraint == Constraint::inextensible;
             const bool saturated = inextensible && is_sphere(surface);
             if (time != S(0)) {
-                p.of_velocity = time * law.linearisation(surface, body.tension);
+                p.of_velocity = scaled(time, Operator(law.linearisation(surface, body.tension)));
                 if (body.slip.size() > 0) {
-                    p.given_force -= p.of_velocity * body.slip;
+                    p.given_force -= applied(p.of_velocity, body.slip);
                 }
             }
             if (saturated) {
                 const Vector<S> resistance = Vector<S>::Constant(surface.size(), S(-2 * saturated_resistance<S>()));
-                const Operator rigidity =
-                    surface.along_normal(Operator(resistance.asDiagonal() * surface.mean_curvature_of));
-                p.of_velocity = p.of_velocity.rows() > 0 ? Operator(p.of_velocity + rigidity) : rigidity;
+                const Operator rigidity = surface.along_normal(rows_scaled(resistance, surface.mean_curvature_of));
+                p.of_velocity = p.of_velocity.rows() > 0 ? Operator(sum(p.of_velocity, rigidity)) : rigidity;
             }
             if (p.of_velocity.rows() > 0) {
                 p.velocity = take(2 * surface.size());
@@ -171,7 +170,6 @@ class MotionEquation {
                 }
             }
         }
-        return p;
     }
 
     /// u = u_0 + V y at all nodes.
@@ -182,22 +180,22 @@ class MotionEquation {
             const Part& p = parts_[b];
             const Surface& surface = bodies_[b].surface;
             const Index n = 2 * surface.size();
+            Matrix<S> copy;
+            if (bodies_.size() > 1 || p.force != none) {
+                copy = block_of(mobility_, 0, p.begin, mobility_.rows(), n);
+            }
             if (p.force != none) {
-                response_.middleCols(p.force, n) = mobility_.middleCols(p.begin, n);
+                set_block(response_, 0, p.force, copy);
                 continue;
             }
             if constexpr (Kinds::any_deformable) {
-                Matrix<S> copy;
-                if (bodies_.size() > 1) {
-                    copy = mobility_.middleCols(p.begin, n);
-                }
                 const Matrix<S>& g = bodies_.size() > 1 ? copy : mobility_;
-                velocity_given_ += g * p.given_force;
+                velocity_given_ += applied(g, p.given_force);
                 if (p.velocity != none) {
-                    response_.middleCols(p.velocity, n) = g * p.of_velocity;
+                    set_columns(response_, p.velocity, g, p.of_velocity);
                 }
                 if (p.tension != none) {
-                    response_.middleCols(p.tension, surface.tension_force.cols()) = g * surface.tension_force;
+                    set_columns(response_, p.tension, g, surface.tension_force);
                 }
             }
         }
@@ -207,30 +205,43 @@ class MotionEquation {
         matrix_ = Matrix<S>::Zero(unknowns_, unknowns_);
         rhs_ = Vector<S>::Zero(unknowns_);
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
-            if (parts_[b].force != none) {
-                rigid_rows(parts_[b], bodies_[b]);
-            } else if constexpr (Kinds::any_deformable) {
-                deformable_rows(parts_[b], bodies_[b].surface);
+            if constexpr (Kinds::any_rigid) {
+                if (parts_[b].force != none) {
+                    rigid_rows(parts_[b], bodies_[b]);
+                }
+            }
+            if constexpr (Kinds::any_deformable) {
+                if (parts_[b].force == none) {
+                    deformable_rows(parts_[b], bodies_[b].surface);
+                }
             }
         }
     }
 
+    /// The response at a body's nodes.
+    Matrix<S> response_of(const Part& p, Index rows) const { return block_of(response_, p.begin, 0, rows, unknowns_); }
+
     void rigid_rows(const Part& p, const Body& body) {
         const Index nodes = body.surface.size();
         const Index n = 2 * nodes;
-        matrix_.middleRows(p.force, n) = response_.middleRows(p.begin, n);
-        rhs_.segment(p.force, n) = -velocity_given_.segment(p.begin, n);
-        if (p.given_speed) {
-            rhs_.segment(p.force + nodes, nodes).array() += *p.given_speed;
-        } else {
-            matrix_.col(p.speed).segment(p.force + nodes, nodes).setConstant(S(-1));
-            matrix_.row(p.speed).segment(p.force + nodes, nodes) = body.surface.weight.transpose();
-            rhs_[p.speed] = body.surface.weight.dot(body.load.tail(nodes));
+        set_block(matrix_, p.force, 0, response_of(p, n));
+        for (Index i = 0; i < n; ++i) {
+            rhs_[p.force + i] = -velocity_given_[p.begin + i];
+        }
+        for (Index i = 0; i < nodes; ++i) {
+            if (p.given_speed) {
+                rhs_[p.force + nodes + i] += *p.given_speed;
+            } else {
+                matrix_(p.force + nodes + i, p.speed) = S(-1);
+                matrix_(p.speed, p.force + nodes + i) = body.surface.weight[i];
+                rhs_[p.speed] += body.surface.weight[i] * body.load[nodes + i];
+            }
         }
         // On the axis u_r = 0 holds by symmetry and says nothing: f_r = 0 takes its place.
         for (const Index pole : {p.force, p.force + nodes - 1}) {
-            matrix_.row(pole).setZero();
-            matrix_(pole, pole) = 1;
+            for (Index j = 0; j < unknowns_; ++j) {
+                matrix_(pole, j) = j == pole ? S(1) : S(0);
+            }
             rhs_[pole] = 0;
         }
     }
@@ -238,27 +249,37 @@ class MotionEquation {
     void deformable_rows(const Part& p, const Surface& surface) {
         const Index n = 2 * surface.size();
         if (p.velocity != none) {
-            matrix_.middleRows(p.velocity, n) = -response_.middleRows(p.begin, n);
-            matrix_.diagonal().segment(p.velocity, n).array() += S(1);
-            rhs_.segment(p.velocity, n) = velocity_given_.segment(p.begin, n);
+            for (Index j = 0; j < unknowns_; ++j) {
+                for (Index i = 0; i < n; ++i) {
+                    matrix_(p.velocity + i, j) = -response_(p.begin + i, j);
+                }
+            }
+            for (Index i = 0; i < n; ++i) {
+                matrix_(p.velocity + i, p.velocity + i) += S(1);
+                rhs_[p.velocity + i] = velocity_given_[p.begin + i];
+            }
         }
         if (p.tension == none) {
             return;
         }
         const Index tensions = surface.divergence.rows();
         if (p.velocity != none) {
-            matrix_.block(p.tension, p.velocity, tensions, n) = Matrix<S>(surface.divergence);
+            set_block(matrix_, p.tension, p.velocity, surface.divergence);
         } else {
-            const Matrix<S> rows = response_.middleRows(p.begin, n);
-            const Vector<S> given = velocity_given_.segment(p.begin, n);
-            matrix_.middleRows(p.tension, tensions) = surface.divergence * rows;
-            rhs_.segment(p.tension, tensions) = -(surface.divergence * given);
+            set_block(matrix_, p.tension, 0, applied(surface.divergence, response_of(p, n)));
+            const Vector<S> given = applied(surface.divergence, Vector<S>(velocity_given_.segment(p.begin, n)));
+            for (Index i = 0; i < tensions; ++i) {
+                rhs_[p.tension + i] = -given[i];
+            }
         }
         if (p.slack != none) {
             // A uniform tension is a pressure, and dA/dt = 2 dV/dt = 0 makes one of the constraints redundant: fix the
             // mean tension and allow for the redundant constraint's O(h^2) error.
-            matrix_.row(p.slack).segment(p.tension, tensions) = surface.element_area.transpose() / surface.area();
-            matrix_.col(p.slack).segment(p.tension, tensions).setOnes();
+            const S area = surface.area();
+            for (Index i = 0; i < tensions; ++i) {
+                matrix_(p.slack, p.tension + i) = surface.element_area[i] / area;
+                matrix_(p.tension + i, p.slack) = S(1);
+            }
         }
     }
 
@@ -267,21 +288,23 @@ class MotionEquation {
         MobilitySolution<S> s;
         if (p.force != none) {
             s.velocity = Vector<S>::Zero(n);
-            s.velocity.tail(n / 2).setConstant(p.given_speed ? *p.given_speed : y[p.speed]);
+            const S speed = p.given_speed ? *p.given_speed : y[p.speed];
+            for (Index i = n / 2; i < n; ++i) {
+                s.velocity[i] = speed;
+            }
             s.force = y.segment(p.force, n);
             return s;
         }
         if constexpr (Kinds::any_deformable) {
-            s.velocity =
-                p.velocity != none ? Vector<S>(y.segment(p.velocity, n)) : Vector<S>(velocity.segment(p.begin, n));
+            s.velocity = p.velocity != none ? y.segment(p.velocity, n) : velocity.segment(p.begin, n);
             s.elastic = p.elastic;
             s.force = p.given_force;
             if (p.velocity != none) {
-                s.force += p.of_velocity * s.velocity;
+                s.force += applied(p.of_velocity, s.velocity);
             }
             if (p.tension != none) {
                 s.tension = y.segment(p.tension, body.surface.divergence.rows());
-                s.force += body.surface.tension_force * s.tension;
+                s.force += applied(body.surface.tension_force, s.tension);
             }
         }
         return s;
@@ -298,17 +321,15 @@ class MotionEquation {
     Vector<S> rhs_;
 };
 
-// Defined outside the class for compiled.hpp: members inside it are implicitly inline.
-
 template <class S, class Surface, class Law>
 MotionEquation<S, Surface, Law>::MotionEquation(const std::vector<Body>& bodies, const Matrix<S>& mobility,
                                                 const Vector<S>& background, const S& implicit_time)
-    : bodies_(bodies), mobility_(mobility), background_(background) {
+    : bodies_(bodies), mobility_(mobility), background_(background), parts_(bodies.size()) {
     Index begin = 0;
-    for (const Body& body : bodies_) {
-        parts_.push_back(Kinds::visit(body.law, [&](const auto& law) { return part(law, body, implicit_time); }));
-        parts_.back().begin = begin;
-        begin += 2 * body.surface.size();
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        Kinds::visit(bodies_[b].law, [&](const auto& law) { part(law, bodies_[b], implicit_time, parts_[b]); });
+        parts_[b].begin = begin;
+        begin += 2 * bodies_[b].surface.size();
     }
 }
 
@@ -322,10 +343,10 @@ std::vector<MobilitySolution<S>> MotionEquation<S, Surface, Law>::solve(Solver& 
         solver.factorize(matrix_);
         y = solver.solve(rhs_);
     }
-    const Vector<S> velocity = velocity_given_ + response_ * y;
-    std::vector<MobilitySolution<S>> solutions;
+    const Vector<S> velocity = velocity_given_ + applied(response_, y);
+    std::vector<MobilitySolution<S>> solutions(bodies_.size());
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-        solutions.push_back(solution(parts_[b], bodies_[b], y, velocity));
+        solutions[b] = solution(parts_[b], bodies_[b], y, velocity);
     }
     return solutions;
 }

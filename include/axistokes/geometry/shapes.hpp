@@ -6,6 +6,7 @@
 #include "remesh.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace axistokes {
@@ -45,8 +46,9 @@ namespace detail {
 
 /// Nodes spaced as `spacing` asks for and exactly on the curve that `at_angles` evaluates at angles in [0, pi] from the
 /// lower pole to the upper one. The wanted angles are read off a spline with many nodes.
-template <class S, class Curve>
-Meridian<S> spaced_on_curve(const Curve& at_angles, Index elements, const NodeSpacing<S>& spacing) {
+template <class S>
+Meridian<S> spaced_on_curve(const std::function<Meridian<S>(const Vector<S>&)>& at_angles, Index elements,
+                            const NodeSpacing<S>& spacing) {
     require_elements(elements);
     const S pi = pi_value<S>();
     const Index fine = 16 * elements;

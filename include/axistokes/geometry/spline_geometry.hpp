@@ -35,97 +35,62 @@ class SplineGeometry {
 
     const MeshingParams<S>& meshing() const { return meshing_; }
 
-    Measures<S> measures(const Meridian<S>& shape) const;
+    Measures<S> measures(const Meridian<S>& shape) const { return MeridianSpline<S>(shape).measures(); }
 
-    S max_radius(const Meridian<S>& shape) const;
+    S max_radius(const Meridian<S>& shape) const { return MeridianSpline<S>(shape).max_radius(); }
 
     /// 2 Int H^2 dA in kappa.
-    S bending_energy(const Meridian<S>& shape) const;
+    S bending_energy(const Meridian<S>& shape) const { return axistokes::bending_energy(shape); }
 
     /// Meridional curvatures at the lower and the upper pole, in 1/R0, positive on a sphere.
-    std::pair<S, S> pole_curvatures(const Meridian<S>& shape) const;
+    std::pair<S, S> pole_curvatures(const Meridian<S>& shape) const {
+        const Vector<S> k = principal_curvatures(shape).meridional;
+        return {k[0], k[k.size() - 1]};
+    }
 
     /// Gives the shape the area and volume again that time stepping has lost; false if that fails.
-    bool restore(Meridian<S>& shape, const S& area, const S& volume) const;
+    bool restore(Meridian<S>& shape, const S& area, const S& volume) const {
+        return restore_area_and_volume<S>(shape, area, volume, 1000 * std::numeric_limits<S>::epsilon());
+    }
 
     /// Gives the shape its volume again, if its area may change; false if that fails.
-    bool restore(Meridian<S>& shape, const S& volume) const;
+    bool restore(Meridian<S>& shape, const S& volume) const {
+        return restore_volume<S>(shape, volume, 1000 * std::numeric_limits<S>::epsilon());
+    }
 
     /// The nodes, and the middles of the elements on the curve between them.
-    Meridian<S> sampled(const Meridian<S>& shape) const;
+    Meridian<S> sampled(const Meridian<S>& shape) const {
+        const MeridianSpline<S> spline(shape);
+        Meridian<S> result{Vector<S>(2 * shape.elements() + 1), Vector<S>(2 * shape.elements() + 1)};
+        for (Index i = 0; i < shape.nodes(); ++i) {
+            result.r[2 * i] = shape.r[i];
+            result.z[2 * i] = shape.z[i];
+        }
+        for (Index e = 0; e < shape.elements(); ++e) {
+            const Point<S> middle = spline.at(e, S(0.5)).position;
+            result.r[2 * e + 1] = middle.r;
+            result.z[2 * e + 1] = middle.z;
+        }
+        return result;
+    }
 
     /// Moves the nodes along the curve if their spacing has become too uneven; true if it did.
-    bool redistribute(Meridian<S>& shape) const;
+    bool redistribute(Meridian<S>& shape) const {
+        if (!(spacing_distortion(shape, meshing_.spacing) > meshing_.largest_distortion)) {
+            return false;
+        }
+        shape = redistributed(shape, shape.elements());
+        return true;
+    }
 
     /// `elements` elements on the same curve, spaced as the parameters ask for. Throws InvalidArgument for fewer
     /// than 8.
-    Meridian<S> redistributed(const Meridian<S>& shape, Index elements) const;
+    Meridian<S> redistributed(const Meridian<S>& shape, Index elements) const {
+        return axistokes::redistribute(shape, meshing_.spacing, elements);
+    }
 
   private:
     MeshingParams<S> meshing_;
 };
-
-// Defined outside the class for compiled.hpp: members inside it are implicitly inline.
-
-template <class S>
-Measures<S> SplineGeometry<S>::measures(const Meridian<S>& shape) const {
-    return MeridianSpline<S>(shape).measures();
-}
-
-template <class S>
-S SplineGeometry<S>::max_radius(const Meridian<S>& shape) const {
-    return MeridianSpline<S>(shape).max_radius();
-}
-
-template <class S>
-S SplineGeometry<S>::bending_energy(const Meridian<S>& shape) const {
-    return axistokes::bending_energy(shape);
-}
-
-template <class S>
-std::pair<S, S> SplineGeometry<S>::pole_curvatures(const Meridian<S>& shape) const {
-    const Vector<S> k = principal_curvatures(shape).meridional;
-    return {k[0], k[k.size() - 1]};
-}
-
-template <class S>
-bool SplineGeometry<S>::restore(Meridian<S>& shape, const S& area, const S& volume) const {
-    return restore_area_and_volume<S>(shape, area, volume, 1000 * std::numeric_limits<S>::epsilon());
-}
-
-template <class S>
-bool SplineGeometry<S>::restore(Meridian<S>& shape, const S& volume) const {
-    return restore_volume<S>(shape, volume, 1000 * std::numeric_limits<S>::epsilon());
-}
-
-template <class S>
-Meridian<S> SplineGeometry<S>::sampled(const Meridian<S>& shape) const {
-    const MeridianSpline<S> spline(shape);
-    Meridian<S> result{Vector<S>(2 * shape.elements() + 1), Vector<S>(2 * shape.elements() + 1)};
-    for (Index i = 0; i < shape.nodes(); ++i) {
-        result.r[2 * i] = shape.r[i];
-        result.z[2 * i] = shape.z[i];
-    }
-    for (Index e = 0; e < shape.elements(); ++e) {
-        const Point<S> middle = spline.at(e, S(0.5)).position;
-        result.r[2 * e + 1] = middle.r;
-        result.z[2 * e + 1] = middle.z;
-    }
-    return result;
-}
-
-template <class S>
-bool SplineGeometry<S>::redistribute(Meridian<S>& shape) const {
-    if (!(spacing_distortion(shape, meshing_.spacing) > meshing_.largest_distortion)) {
-        return false;
-    }
-    shape = redistributed(shape, shape.elements());
-    return true;
-}
-
-template <class S>
-Meridian<S> SplineGeometry<S>::redistributed(const Meridian<S>& shape, Index elements) const {
-    return axistokes::redistribute(shape, meshing_.spacing, elements);
-}
 
 }  // namespace axistokes

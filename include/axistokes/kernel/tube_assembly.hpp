@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <vector>
 
 namespace axistokes::detail {
@@ -23,32 +24,8 @@ class TubeAssembly {
     TubeAssembly(const TubeImages<S>& images, const Meridian<S>& targets)
         : images_(images), targets_(targets), target_gap_(gaps(targets, "target radius")) {}
 
-    template <class Quadrature>
-    void add_to(Matrix<S>& out, const Quadrature& quadrature) {
-        const RegularQuadrature<S> close = quadrature(S(0));
-        const Sources sources(*this, close);
-        const S gap = target_gap_.minCoeff() + sources.gap.minCoeff();
-        images_.require_clear(gap);
-        const S bottom = std::min(targets_.z.minCoeff(), close.points.z.minCoeff());
-        const S top = std::max(targets_.z.maxCoeff(), close.points.z.maxCoeff());
-        const S stray = (close.points.z - close.panel).cwiseAbs().maxCoeff();
-        make_slabs(bottom, top, stray, gap);
-        const auto height = static_cast<double>(edges_[1] - edges_[0]);
-        const auto slack = static_cast<double>(stray);
-        const auto slabs = static_cast<Index>(edges_.size()) - 1;
-        const auto eps = static_cast<double>(images_.params().tolerance);
-        const auto extent = static_cast<double>(top - bottom);
-        const S radius = images_.radius();
-        near(TubeSpectrum<S>(radius, 0, std::min(extent, 2 * height + slack), static_cast<double>(gap), eps), sources,
-             out);
-        if constexpr (RayScalar<S>::turned) {
-            if (slabs > 2) {
-                const RegularQuadrature<S> distant = quadrature(S(height - slack));
-                far(TubeSpectrum<std::complex<S>>(radius, height - slack, extent, static_cast<double>(gap), eps),
-                    Sources(*this, distant), out);
-            }
-        }
-    }
+    using Quadrature = std::function<RegularQuadrature<S>(const S&)>;
+    void add_to(Matrix<S>& out, const Quadrature& quadrature);
 
   private:
     using Rows = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -118,24 +95,33 @@ class TubeAssembly {
                          Rows& rows) {
         for (typename Weights::InnerIterator it(sources.weights, q); it; ++it) {
             const auto j = static_cast<Index>(std::lower_bound(nodes.begin(), nodes.end(), it.col()) - nodes.begin());
-            rows.middleRows(2 * j, 2) += (it.value() * sources.points.r[q]) * point_rows;
+            const S factor = it.value() * sources.points.r[q];
+            // The two rows follow each other.
+            Eigen::Map<Vector<S>>(&rows(2 * j, 0), point_rows.size()) +=
+                factor * Eigen::Map<const Vector<S>>(point_rows.data(), point_rows.size());
         }
     }
 
-    /// out -= rows of a target slab times rows of a source slab.
-    void scatter(const Rows& target_rows, const std::vector<Index>& targets, const Rows& source_rows,
+    /// out -= rows of a target slab times rows of a source slab. The product has the operand types of those in Eigen's
+    /// LU decomposition: one instantiation for both.
+    void scatter(Matrix<S>& target_rows, const std::vector<Index>& targets, Rows& source_rows,
                  const std::vector<Index>& nodes, Matrix<S>& out) const {
-        const Matrix<S> block = target_rows * source_rows.transpose();
+        using Operand = Eigen::Ref<Matrix<S>>;
+        Matrix<S> minus_block = Matrix<S>::Zero(target_rows.rows(), source_rows.rows());
+        Operand product(minus_block);
+        const Operand left(target_rows);
+        const Operand right(Eigen::Map<Matrix<S>>(source_rows.data(), source_rows.cols(), source_rows.rows()));
+        product.noalias() -= left * right;
         const Index n_targets = targets_.nodes();
         const Index n_nodes = out.cols() / 2;
         for (std::size_t j = 0; j < nodes.size(); ++j) {
             const auto bj = static_cast<Index>(2 * j);
             for (std::size_t i = 0; i < targets.size(); ++i) {
                 const auto bi = static_cast<Index>(2 * i);
-                out(targets[i], nodes[j]) -= block(bi, bj);
-                out(targets[i], n_nodes + nodes[j]) -= block(bi, bj + 1);
-                out(n_targets + targets[i], nodes[j]) -= block(bi + 1, bj);
-                out(n_targets + targets[i], n_nodes + nodes[j]) -= block(bi + 1, bj + 1);
+                out(targets[i], nodes[j]) += minus_block(bi, bj);
+                out(targets[i], n_nodes + nodes[j]) += minus_block(bi, bj + 1);
+                out(n_targets + targets[i], nodes[j]) += minus_block(bi + 1, bj);
+                out(n_targets + targets[i], n_nodes + nodes[j]) += minus_block(bi + 1, bj + 1);
             }
         }
     }
@@ -148,7 +134,7 @@ class TubeAssembly {
         const S nearest_point = sources.gap.minCoeff();
         const std::vector<std::vector<Index>> point_slabs = sorted(sources.panel);
         // Wave numbers past a point's reach stay zero.
-        std::vector<Rows> target_rows;
+        std::vector<Matrix<S>> target_rows;
         for (const std::vector<Index>& slab : target_slabs_) {
             Rows rows = Rows::Zero(static_cast<Index>(2 * slab.size()), columns);
             for (std::size_t i = 0; i < slab.size(); ++i) {
@@ -157,7 +143,7 @@ class TubeAssembly {
                 waves.target(targets_.r[slab[i]], gap, targets_.z[slab[i]] - centre,
                              spectrum.relevant(gap + nearest_point), &rows(row, 0), &rows(row + 1, 0));
             }
-            target_rows.push_back(std::move(rows));
+            target_rows.emplace_back(rows);
         }
         Rows point_rows(2, columns);
         for (std::size_t j = 0; j < point_slabs.size(); ++j) {
@@ -209,8 +195,8 @@ class TubeAssembly {
             write(&facing_up(row, column), &facing_up(row + 1, column), scaled(u, from_top), S(1), side);
             write(&facing_down(row, column), &facing_down(row + 1, column), scaled(u, from_bottom), S(-1), side);
         };
-        std::vector<Rows> targets_up;
-        std::vector<Rows> targets_down;
+        std::vector<Matrix<S>> targets_up;
+        std::vector<Matrix<S>> targets_down;
         for (std::size_t slab = 0; slab < slabs; ++slab) {
             const std::vector<Index>& members = target_slabs_[slab];
             Rows up(static_cast<Index>(2 * members.size()), columns);
@@ -222,8 +208,8 @@ class TubeAssembly {
                                targets_.z[target] - edges_[slab], S(1), up, down, static_cast<Index>(2 * i));
                 }
             }
-            targets_up.push_back(std::move(up));
-            targets_down.push_back(std::move(down));
+            targets_up.emplace_back(up);
+            targets_down.emplace_back(down);
         }
         const std::vector<std::vector<Index>> point_slabs = sorted(sources.panel);
         Rows up(2, columns);
@@ -241,12 +227,12 @@ class TubeAssembly {
                 contract(sources, q, down, nodes, sources_down);
             }
             for (std::size_t i = 0; i + 1 < j; ++i) {
-                scatter(shifted(targets_up[i], phases(spectrum, edges_[j] - edges_[i + 1])), target_slabs_[i],
-                        sources_down, nodes, out);
+                Matrix<S> moved = shifted(targets_up[i], phases(spectrum, edges_[j] - edges_[i + 1]));
+                scatter(moved, target_slabs_[i], sources_down, nodes, out);
             }
             for (std::size_t i = j + 2; i < slabs; ++i) {
-                scatter(shifted(targets_down[i], phases(spectrum, edges_[i] - edges_[j + 1])), target_slabs_[i],
-                        sources_up, nodes, out);
+                Matrix<S> moved = shifted(targets_down[i], phases(spectrum, edges_[i] - edges_[j + 1]));
+                scatter(moved, target_slabs_[i], sources_up, nodes, out);
             }
         }
     }
@@ -261,15 +247,13 @@ class TubeAssembly {
     }
 
     /// Target rows times `phase`, one factor per wave number.
-    static Rows shifted(const Rows& rows, const std::vector<C>& phase) {
-        Rows result(rows.rows(), rows.cols());
-        for (Index i = 0; i < rows.rows(); ++i) {
-            for (std::size_t k = 0; k < phase.size(); ++k) {
-                const S* in = &rows(i, static_cast<Index>(4 * k));
-                S* out = &result(i, static_cast<Index>(4 * k));
-                for (int m = 0; m < 2; ++m) {
-                    out[m] = phase[k].real() * in[m] - phase[k].imag() * in[m + 2];
-                    out[m + 2] = phase[k].real() * in[m + 2] + phase[k].imag() * in[m];
+    static Matrix<S> shifted(const Matrix<S>& rows, const std::vector<C>& phase) {
+        Matrix<S> result(rows.rows(), rows.cols());
+        for (std::size_t k = 0; k < phase.size(); ++k) {
+            for (Index m = static_cast<Index>(4 * k); m < static_cast<Index>(4 * k + 2); ++m) {
+                for (Index i = 0; i < rows.rows(); ++i) {
+                    result(i, m) = phase[k].real() * rows(i, m) - phase[k].imag() * rows(i, m + 2);
+                    result(i, m + 2) = phase[k].real() * rows(i, m + 2) + phase[k].imag() * rows(i, m);
                 }
             }
         }
@@ -282,5 +266,31 @@ class TubeAssembly {
     std::vector<S> edges_;
     std::vector<std::vector<Index>> target_slabs_;
 };
+
+template <class S>
+void TubeAssembly<S>::add_to(Matrix<S>& out, const Quadrature& quadrature) {
+    const RegularQuadrature<S> close = quadrature(S(0));
+    const Sources sources(*this, close);
+    const S gap = target_gap_.minCoeff() + sources.gap.minCoeff();
+    images_.require_clear(gap);
+    const S bottom = std::min(targets_.z.minCoeff(), close.points.z.minCoeff());
+    const S top = std::max(targets_.z.maxCoeff(), close.points.z.maxCoeff());
+    const S stray = (close.points.z - close.panel).cwiseAbs().maxCoeff();
+    make_slabs(bottom, top, stray, gap);
+    const auto height = static_cast<double>(edges_[1] - edges_[0]);
+    const auto slack = static_cast<double>(stray);
+    const auto slabs = static_cast<Index>(edges_.size()) - 1;
+    const auto eps = static_cast<double>(images_.params().tolerance);
+    const auto extent = static_cast<double>(top - bottom);
+    const S radius = images_.radius();
+    near(TubeSpectrum<S>(radius, 0, std::min(extent, 2 * height + slack), static_cast<double>(gap), eps), sources, out);
+    if constexpr (RayScalar<S>::turned) {
+        if (slabs > 2) {
+            const RegularQuadrature<S> distant = quadrature(S(height - slack));
+            far(TubeSpectrum<std::complex<S>>(radius, height - slack, extent, static_cast<double>(gap), eps),
+                Sources(*this, distant), out);
+        }
+    }
+}
 
 }  // namespace axistokes::detail

@@ -106,16 +106,17 @@ class LocalShares {
 
     /// The same as a matrix: points x nodes.
     Eigen::SparseMatrix<S, Eigen::RowMajor> weights(const LayerPoints<S>& points, Index nodes) const {
-        std::vector<Eigen::Triplet<S>> entries;
-        for (std::size_t q = 0; q < points.t.size(); ++q) {
-            for (Index k = 0; k < width(); ++k) {
-                const S& share = points.shares[q * static_cast<std::size_t>(width()) + static_cast<std::size_t>(k)];
-                entries.emplace_back(static_cast<int>(q), static_cast<int>(points.panel[q] * stride_ + k),
-                                     points.weight[q] * share);
+        Eigen::SparseMatrix<S, Eigen::RowMajor> result(points.size(), nodes);
+        result.reserve(points.size() * width());
+        const S* share = points.shares.data();
+        for (Index q = 0; q < points.size(); ++q) {
+            const auto p = static_cast<std::size_t>(q);
+            result.startVec(q);
+            for (Index k = 0; k < width(); ++k, ++share) {
+                result.insertBack(q, points.panel[p] * stride_ + k) = points.weight[p] * *share;
             }
         }
-        Eigen::SparseMatrix<S, Eigen::RowMajor> result(points.size(), nodes);
-        result.setFromTriplets(entries.begin(), entries.end());
+        result.finalize();
         return result;
     }
 

@@ -5,7 +5,11 @@
 //   f = [2 Lap_s H + 4 H (H^2 - K)] n  -  2 gamma H n + grad_s gamma  +  load n,     div_s u = 0 fixes gamma.
 #pragma once
 
+#include "../operators.hpp"
 #include "law.hpp"
+
+#include <cmath>
+#include <utility>
 
 namespace axistokes {
 
@@ -20,12 +24,14 @@ class Vesicle {
     template <class Surface>
     static Vector<S> force(const Surface& surface) {
         const auto& h = surface.mean_curvature;
-        Vector<S> scalar = surface.laplacian * h;
-        for (Index i = 0; i < h.size(); ++i) {
-            scalar[i] = 2 * scalar[i] + 4 * (h[i] * h[i] - surface.gauss_curvature[i]) * h[i];
+        const Vector<S> laplacian = detail::applied(surface.laplacian, h);
+        const Index n = surface.size();
+        Vector<S> force(2 * n);
+        for (Index i = 0; i < n; ++i) {
+            const S scalar = 2 * laplacian[i] + 4 * (h[i] * h[i] - surface.gauss_curvature[i]) * h[i];
+            force[i] = scalar * surface.normal_r[i];
+            force[n + i] = scalar * surface.normal_z[i];
         }
-        Vector<S> force(2 * surface.size());
-        force << surface.normal_r.cwiseProduct(scalar), surface.normal_z.cwiseProduct(scalar);
         return force;
     }
 
@@ -36,21 +42,31 @@ class Vesicle {
     static typename Surface::Operator linearisation(const Surface& surface, const Vector<S>& tension) {
         using Operator = typename Surface::Operator;
         const auto& h = surface.mean_curvature;
-        Vector<S> factor = 4 * (h.cwiseAbs2() - surface.gauss_curvature);
-        if (tension.size() == surface.divergence.rows()) {
-            factor -= 2 * positive_part(surface.at_nodes(tension));
+        Vector<S> factor(h.size());
+        for (Index i = 0; i < h.size(); ++i) {
+            factor[i] = 4 * (h[i] * h[i] - surface.gauss_curvature[i]);
         }
-        Operator scalar = S(2) * (surface.laplacian * surface.mean_curvature_of);
-        scalar += Operator(factor.asDiagonal() * surface.mean_curvature_of);
+        if (tension.size() == surface.divergence.rows()) {
+            resist(surface.at_nodes(tension), factor);
+        }
+        Operator scalar = detail::scaled(S(2), detail::product(surface.laplacian, surface.mean_curvature_of));
+        scalar = detail::sum(std::move(scalar), detail::rows_scaled(factor, surface.mean_curvature_of));
         return surface.along_normal(scalar);
     }
 
   private:
-    /// (gamma + sqrt(gamma^2 + m^2))/2 with m the mean of |gamma|: a kink would cost higher-order steps their order,
-    /// and slightly negative tensions their stability.
-    static Vector<S> positive_part(const Vector<S>& tension) {
-        const S mean = tension.cwiseAbs().mean();
-        return (tension + (tension.cwiseAbs2().array() + mean * mean).sqrt().matrix()) / 2;
+    /// Subtracts gamma + sqrt(gamma^2 + m^2), m the mean of |gamma|, which is twice a tension's positive part: a kink
+    /// would cost higher-order steps their order, and slightly negative tensions their stability.
+    static void resist(const Vector<S>& tension, Vector<S>& factor) {
+        using std::abs;
+        using std::sqrt;
+        S mean = 0;
+        for (Index i = 0; i < tension.size(); ++i) {
+            mean += abs(tension[i]) / S(tension.size());
+        }
+        for (Index i = 0; i < tension.size(); ++i) {
+            factor[i] -= tension[i] + sqrt(tension[i] * tension[i] + mean * mean);
+        }
     }
 };
 

@@ -42,6 +42,17 @@ class DenseLU {
     Eigen::PartialPivLU<Matrix<S>> lu_;
 };
 
+template <class S>
+void DenseLU<S>::factorize(const Matrix<S>& a) {
+    lu_.compute(a);
+    detail::require_regular(detail::regular<S>(lu_), "dense LU");
+}
+
+template <class S>
+Vector<S> DenseLU<S>::solve(const Vector<S>& b) const {
+    return lu_.solve(b);
+}
+
 /// Householder QR with column pivoting: backward stable without growth, and reveals the rank; some five times the cost
 /// of LU.
 template <class S = double>

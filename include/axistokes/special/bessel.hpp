@@ -14,8 +14,6 @@
 
 #include "../core.hpp"
 
-#include <boost/math/constants/constants.hpp>
-
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -34,6 +32,20 @@ struct RealOf<std::complex<S>> {
 };
 template <class X>
 using real_of = typename RealOf<X>::type;
+
+/// 0.577..., to 110 digits.
+template <class S>
+S euler_constant() {
+    if constexpr (std::is_floating_point_v<S>) {
+        return std::numbers::egamma_v<S>;
+    } else {
+        static_assert(std::numeric_limits<S>::digits10 <= 110);
+        static const S value(
+            "0.57721566490153286060651209008240243104215933593992359880576723488486772677766467093694706329174674951463"
+            "144724980708248096050401448654283622417");
+        return value;
+    }
+}
 
 /// log(1/eps), the number of e-foldings that matter.
 template <class S>
@@ -171,8 +183,9 @@ struct LogFreeK {
     explicit LogFreeK(const X& x) {
         using std::abs;
         using S = detail::real_of<X>;
-        const S log2 = boost::math::constants::ln_two<S>();
-        const S euler = boost::math::constants::euler<S>();
+        using std::log;
+        const S log2 = log(S(2));
+        const S euler = detail::euler_constant<S>();
         const X q = x * x / S(4);
         X term = S(1);
         S harmonic = 0;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <type_traits>
 
 namespace axistokes::detail {
@@ -116,8 +117,7 @@ class ScaledITable {
     }
 
     /// Chebyshev interpolation on [-1, 1], converted to powers.
-    template <class Function>
-    static Cell fit(const Function& function) {
+    static Cell fit(const std::function<Pair(long double)>& function) {
         constexpr int n = coefficients;
         std::array<Pair, n> chebyshev{};
         for (int j = 0; j < n; ++j) {

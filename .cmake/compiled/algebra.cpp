@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#define AXISTOKES_SPECTRAL template
+#define AXISTOKES_ALGEBRA template
 #include <axistokes/compiled.hpp>

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#define AXISTOKES_LINEAR template
+#define AXISTOKES_TUBE template
 #include <axistokes/compiled.hpp>

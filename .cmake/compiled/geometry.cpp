@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#define AXISTOKES_COMMON template
+#define AXISTOKES_GEOMETRY template
 #include <axistokes/compiled.hpp>

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define AXISTOKES_ELEMENTS template
+#include <axistokes/compiled.hpp>

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define AXISTOKES_SERIES template
+#include <axistokes/compiled.hpp>
