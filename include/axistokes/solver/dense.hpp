@@ -70,17 +70,4 @@ class DenseQR {
     Eigen::ColPivHouseholderQR<Matrix<S>> qr_;
 };
 
-// Defined outside the class for compiled.hpp: members inside it are implicitly inline.
-
-template <class S>
-void DenseLU<S>::factorize(const Matrix<S>& a) {
-    lu_.compute(a);
-    detail::require_regular(detail::regular<S>(lu_), "dense LU");
-}
-
-template <class S>
-Vector<S> DenseLU<S>::solve(const Vector<S>& b) const {
-    return lu_.solve(b);
-}
-
 }  // namespace axistokes
