@@ -49,8 +49,10 @@ struct FilmThickness {
     /// Over the part of the meridian within 10 % of the largest radius, by arc length.
     S mean = std::numeric_limits<S>::infinity();
     S to_neighbour = std::numeric_limits<S>::infinity();
-    /// Least pi sqrt(2h/h'')/spacing along the curve, h the film at the wall: how many nodes its forces vary over.
+    /// Least pi l/spacing along the curve, l = sqrt(2h/h'') and h the film at the wall: how many nodes its forces vary
+    /// over; and h/l there.
     S wall_nodes = std::numeric_limits<S>::infinity();
+    S wall_slenderness = std::numeric_limits<S>::infinity();
 };
 
 /// The gap between two bodies at its narrowest, in R0.
@@ -478,6 +480,7 @@ class Scene {
             }
         }
         const Scalar pi = detail::pi_value<Scalar>();
+        Scalar least = std::numeric_limits<Scalar>::max();
         const Scalar wide = curve.r.maxCoeff() * Scalar(0.9);
         Scalar covered = 0;
         Scalar sum = 0;
@@ -489,8 +492,12 @@ class Scene {
                 if (bend > Scalar(0) && gaps[i] <= gaps[i - 1] && gaps[i] <= gaps[i + 1]) {
                     film.min = std::min(film.min, Scalar(gaps[i] - slope * slope / (2 * bend)));
                 }
-                if (bend > Scalar(0) && gaps[i] > Scalar(0)) {
-                    film.wall_nodes = std::min(film.wall_nodes, Scalar(pi * sqrt(2 * gaps[i] / bend)));
+                if (bend > Scalar(0) && gaps[i] > Scalar(0) && 2 * gaps[i] < bend * least * least) {
+                    least = sqrt(2 * gaps[i] / bend);
+                    film.wall_nodes = pi * least;
+                    const Scalar dr = curve.r[i + 1] - curve.r[i - 1];
+                    const Scalar dz = curve.z[i + 1] - curve.z[i - 1];
+                    film.wall_slenderness = 2 * gaps[i] / (least * sqrt(dr * dr + dz * dz));
                 }
             }
             // The part [a, b] of the chord, of length 1, that is wide enough.

@@ -198,11 +198,13 @@ class Driver {
             films.needed.push_back(shape(b).elements());
         }
         for (std::size_t b = 0; b < state.size(); ++b) {
-            const S nodes = scene.film_thickness(state[b]).wall_nodes;
-            if (isfinite(nodes)) {
-                films.error = std::max(films.error, resolution.wall(double(nodes)));
-                // P1: two meshes tell what more elements are worth.
-                ask(b, nodes, resolution.nodes_for_wall(spectral() ? wanted : FilmResolution::unresolved));
+            const auto film = scene.film_thickness(state[b]);
+            if (isfinite(film.wall_nodes)) {
+                const double error = resolution.wall(double(film.wall_nodes), double(film.wall_slenderness));
+                films.error = std::max(films.error, error);
+                if (error > wanted) {
+                    ask(b, film.wall_nodes, resolution.nodes_for_wall(double(film.wall_slenderness), wanted));
+                }
             }
         }
         for (std::size_t b = 0; b + 1 < state.size(); ++b) {
@@ -297,8 +299,8 @@ class Driver {
         int rescues = 3;
         const auto observe = [&](const auto& record) {
             stopped_ = !observe_(*simulator_);
-            going = (record.step < first || !(simulator_->residual() < residual)) && record.step < last &&
-                    !simulator_->finished() && !stopped_;
+            const bool rests = record.step >= first && simulator_->residual() < residual && rest_ends();
+            going = !rests && record.step < last && !simulator_->finished() && !stopped_;
             return going && !needy() && !films_need();
         };
         resolve_films();
@@ -424,15 +426,13 @@ class Driver {
         result_.stationary = *result_.residual < simulator_->params().tolerance;
     }
 
-    /// Two results may agree by chance where neither resolves a gap.
+    /// Two results may agree by chance where a gap is hardly resolved.
     void judge_rigid(const std::pair<Vector<S>, Vector<S>>& coarse, const std::pair<Vector<S>, Vector<S>>& fine,
                      Index coarse_elements) {
         result_.error_estimate = rigid_error(coarse, fine, coarse_elements);
         if (has_films()) {
             film_error_ = films(double(params_.eps)).error;
-            if (film_error_ > FilmResolution::unresolved) {
-                result_.error_estimate = film_error();
-            }
+            result_.error_estimate = std::max(result_.error_estimate, film_error());
         }
     }
 
@@ -498,7 +498,8 @@ class Driver {
     }
 
     /// Of steps of first order to a given time: the sum of dt/2 times the change of the velocities, relative to the
-    /// length. Steps that estimate their error keep to the accuracy.
+    /// length. Steps that estimate their error keep to the accuracy; those of bodies that move relative to each other or
+    /// to a wall have errors of their places, of which the next velocities depend.
     S time_error() const {
         S largest = 0;
         for (std::size_t b = 0; b < simulator_->bodies() && params_.transient; ++b) {
@@ -511,7 +512,10 @@ class Driver {
         const auto& history = simulator_->history(body);
         S sum = 0;
         if (history.empty() || history.back().step_error > S(0)) {
-            return sum;
+            for (const auto& record : history) {
+                sum += record.step_error;
+            }
+            return has_films() ? S(sum / S(length(simulator_->configuration(body)))) : S(0);
         }
         const S scale = std::max(S(1), simulator_->scene().velocity_scale());
         for (std::size_t i = 1; i < history.size(); ++i) {
@@ -665,11 +669,10 @@ class Driver {
                     share = discretization().unresolved(now);
                     error = spectral() ? S(share / S(Accuracy<S>::unresolved_to_error)) : error;
                 }
-                const S nodes = simulator_->scene().film_thickness(state.configuration).wall_nodes;
-                film_error_ = resolution.wall(double(nodes));
-                if (spectral() || !(film_error() < S(1))) {
-                    error += film_error();
-                }
+                const auto film = simulator_->scene().film_thickness(state.configuration);
+                const auto thin = double(film.wall_slenderness);
+                film_error_ = resolution.wall(double(film.wall_nodes), thin);
+                error += film_error();
                 adopt(state, error);
                 const bool last = error <= params_.eps || !adapts() || now.elements() >= most() || stopped_;
                 // Growth rates need no more than a recognisable shape, and cost as much as many iterations.
@@ -684,8 +687,8 @@ class Driver {
                                  ? more_modes(now.elements(), double(share), double(params_.unresolved), most())
                                  : more_elements(now.elements(), double(error), double(params_.eps), most());
                 if (spectral() && film_error_ > double(params_.eps) / 2) {
-                    const double wanted = resolution.nodes_for_wall(double(params_.eps) / 2);
-                    next = std::max(next, elements_for_film(now.elements(), double(nodes), wanted, most()));
+                    const double wanted = resolution.nodes_for_wall(thin, double(params_.eps) / 2);
+                    next = std::max(next, elements_for_film(now.elements(), double(film.wall_nodes), wanted, most()));
                 }
                 try {
                     auto finer = solver.solve(discretization().redistributed(now, next), area, volume);

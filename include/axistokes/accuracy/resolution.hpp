@@ -63,8 +63,14 @@ struct FilmResolution {
 
     bool spectral = true;
 
-    /// Bodies that slide along a wall.
-    double wall(double n) const { return spectral ? 150 * std::exp(-1.7 * n) : 1.5 / (n * n); }
+    /// Bodies that slide along a wall. Of P1 elements two meshes tell more as long as this is small: it then is 0.
+    double wall(double n, double slenderness) const {
+        if (spectral) {
+            return 150 * std::exp(-1.7 * n);
+        }
+        const double error = (2.6 + 15 / (slenderness * slenderness * n)) / (n * n);
+        return error > unresolved ? error : 0;
+    }
     /// Bodies that approach each other.
     double gap(double n, double slenderness) const {
         const double thin = slenderness * slenderness;
@@ -77,8 +83,10 @@ struct FilmResolution {
     }
 
     /// How many nodes bring `wall`, or `gap`, down to `wanted`; forces in films of that slenderness.
-    double nodes_for_wall(double wanted) const {
-        return spectral ? std::log(150 / wanted) / 1.7 : std::sqrt(1.5 / wanted);
+    double nodes_for_wall(double slenderness, double wanted) const {
+        return spectral ? std::log(150 / wanted) / 1.7
+                        : std::max(std::sqrt(5.2 / unresolved),
+                                   std::cbrt(30 / (slenderness * slenderness * unresolved)));
     }
     double nodes_for_gap(double slenderness, double wanted) const {
         const double thin = slenderness * slenderness;
