@@ -181,9 +181,9 @@ TEST_CASE("a gap has one width, that of the curves, and nodes enough or not", "[
             CHECK(here.slenderness == Approx(std::sqrt(gap)).epsilon(0.01));
             const double nodes = std::sqrt(gap) * static_cast<double>(lower.elements());
             CHECK(here.lower_nodes == Approx(nodes).epsilon(0.01));
-            CHECK(here.upper_nodes == Approx(nodes * static_cast<double>(upper.elements()) /
-                                             static_cast<double>(lower.elements()))
-                                          .epsilon(0.01));
+            CHECK(here.upper_nodes ==
+                  Approx(nodes * static_cast<double>(upper.elements()) / static_cast<double>(lower.elements()))
+                      .epsilon(0.01));
         }
     };
     check(SpectralMeridian<double>{}, spectral_sphere(32), spectral_sphere(20));

@@ -169,7 +169,8 @@ class Driver {
     /// Whether there are films: the bodies are several, or between walls.
     bool has_films() const {
         using std::isfinite;
-        return simulator_->bodies() > 1 || isfinite(simulator_->scene().gap({S(0), simulator_->configuration().position}));
+        return simulator_->bodies() > 1 ||
+               isfinite(simulator_->scene().gap({S(0), simulator_->configuration().position}));
     }
 
     /// The error that the films of the present instant leave in the result, and how many elements each body needs for
@@ -252,7 +253,7 @@ class Driver {
     }
 
     double allowed_of_films() const {
-        return params_.transient ? double(params_.eps) : double(allowed()) / Accuracy<S>::unresolved_to_error;
+        return params_.transient ? double(params_.eps) / 2 : double(allowed()) / Accuracy<S>::unresolved_to_error;
     }
 
     /// Whether a film needs more elements than there are.
@@ -303,9 +304,9 @@ class Driver {
             going = !rests && record.step < last && !simulator_->finished() && !stopped_;
             return going && !needy() && !films_need();
         };
-        resolve_films();
         while (going && steps() < last && !simulator_->finished()) {
             try {
+                resolve_films();
                 simulator_->run(observe);
             } catch (const SimulationFailure&) {
                 if (!adapts() || rescues-- == 0 || !rescue()) {
@@ -319,17 +320,17 @@ class Driver {
             } else {
                 going = going && !(simulator_->stationary() && rest_ends());
             }
-            if (!stopped_) {
-                resolve_films();
-            }
+            going = going || (!stopped_ && films_need());
+        }
+        if (!stopped_) {
+            resolve_films();
         }
     }
 
     /// Whether nothing is left to follow once the bodies have come to rest. To a given time they move on.
     bool rest_ends() const {
         const bool lone_shape = simulator_->bodies() == 1 && simulator_->scene().deforms(0);
-        return !params_.transient || lone_shape ||
-               !(simulator_->params().longest_time < std::numeric_limits<S>::max());
+        return !params_.transient || lone_shape || !(simulator_->params().longest_time < std::numeric_limits<S>::max());
     }
 
     /// Goes on with half as many elements again, if there are any to add: a shape that cannot move on may not be
@@ -379,7 +380,8 @@ class Driver {
 
     /// Of rigid bodies the first instant tells how many elements their tractions need; gaps may need more later.
     void resolve_rigid() {
-        while (spectral() && adapts() && all_rigid() && elements() < 2 * most() && !(finer_difference() <= params_.eps)) {
+        while (spectral() && adapts() && all_rigid() && elements() < 2 * most() &&
+               !(finer_difference() <= params_.eps)) {
             restart(std::min(2 * most(), elements() + elements() / 2));
         }
     }
@@ -407,8 +409,7 @@ class Driver {
         auto now = velocity_and_force(simulator_->moment().instants);
         if (!adapts()) {
             Simulator coarse = make_(std::max(minimum_elements, (2 * elements()) / 3));
-            judge_rigid(velocity_and_force(coarse.moment().instants), now,
-                        coarse.configuration().shape.elements());
+            judge_rigid(velocity_and_force(coarse.moment().instants), now, coarse.configuration().shape.elements());
         }
         while (adapts() && !(result_.error_estimate <= params_.eps) && elements() < most_of_rigid && !stopped_) {
             const Index before = elements();
@@ -468,8 +469,8 @@ class Driver {
         for (std::size_t b = 0; b < simulator.bodies(); ++b) {
             const auto& configuration = simulator.configuration(b);
             const auto& history = simulator.history(b);
-            states.push_back({driven && !history.empty() ? double(history.back().velocity) : 0.0,
-                              length(configuration), configuration.shape.elements()});
+            states.push_back({driven && !history.empty() ? double(history.back().velocity) : 0.0, length(configuration),
+                              configuration.shape.elements()});
         }
         return states;
     }
@@ -497,33 +498,63 @@ class Driver {
         }
     }
 
-    /// Of steps of first order to a given time: the sum of dt/2 times the change of the velocities, relative to the
-    /// length. Steps that estimate their error keep to the accuracy; those of bodies that move relative to each other or
-    /// to a wall have errors of their places, of which the next velocities depend.
+    /// Of the steps to a given time. Where they estimate their error a lone deformable body keeps to the accuracy; of
+    /// others the sum of these is an error of their places, on which velocities depend.
     S time_error() const {
         S largest = 0;
         for (std::size_t b = 0; b < simulator_->bodies() && params_.transient; ++b) {
-            largest = std::max(largest, time_error(b));
+            const auto& history = simulator_->history(b);
+            if (history.empty()) {
+                continue;
+            }
+            const bool lone_shape = simulator_->bodies() == 1 && simulator_->scene().deforms(0);
+            if (!(history.back().step_error > S(0))) {
+                largest = std::max<S>(largest, first_order_error(b));
+            } else if (!lone_shape) {
+                largest = std::max<S>(largest, place_error(b));
+            }
         }
         return largest;
     }
-    S time_error(std::size_t body) const {
+
+    /// The sum of dt/2 times the change of the velocities, relative to the length.
+    S first_order_error(std::size_t body) const {
         using std::abs;
         const auto& history = simulator_->history(body);
-        S sum = 0;
-        if (history.empty() || history.back().step_error > S(0)) {
-            for (const auto& record : history) {
-                sum += record.step_error;
-            }
-            return has_films() ? S(sum / S(length(simulator_->configuration(body)))) : S(0);
-        }
         const S scale = std::max(S(1), simulator_->scene().velocity_scale());
+        S sum = 0;
         for (std::size_t i = 1; i < history.size(); ++i) {
             sum += history[i].dt / 2 *
                    (scale * abs(history[i].residual - history[i - 1].residual) +
                     abs(history[i].velocity - history[i - 1].velocity));
         }
         return sum / S(length(simulator_->configuration(body)));
+    }
+
+    /// The sum of the errors of all steps times the most that the velocity has changed by while bodies moved relative
+    /// to each other, or deformed, by as much.
+    S place_error(std::size_t body) const {
+        using std::abs;
+        const auto& history = simulator_->history(body);
+        const S scale = std::max(S(1), simulator_->scene().velocity_scale());
+        S sum = history.front().step_error;
+        S slope = 0;
+        S before = scale * simulator_->history(0).front().residual;
+        for (std::size_t i = 1; i < history.size(); ++i) {
+            S rate = 0;
+            for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
+                rate = std::max<S>(rate, scale * simulator_->history(b)[i].residual);
+            }
+            const bool lone = simulator_->bodies() == 1;
+            const S moved =
+                lone ? S(abs(history[i].position - history[i - 1].position)) : S(history[i].dt * (rate + before) / 2);
+            if (moved > S(1e-6 * length(simulator_->configuration(body)))) {
+                slope = std::max<S>(slope, abs(history[i].velocity - history[i - 1].velocity) / moved);
+            }
+            sum += history[i].step_error;
+            before = rate;
+        }
+        return sum * slope / std::max(S(abs(history.back().velocity)), S(1e-3));
     }
 
     /// P1: from the difference to a run with three quarters of the elements; half of them may not be in the range of
@@ -540,9 +571,7 @@ class Driver {
                 stopped_ = !observe_(*simulator_);
                 return !coarse.finished() && !stopped_;
             };
-            const auto left = [&] {
-                return coarse.params().most_steps - static_cast<Index>(coarse.history().size());
-            };
+            const auto left = [&] { return coarse.params().most_steps - static_cast<Index>(coarse.history().size()); };
             do {
                 coarse.run(observe);
             } while (!coarse.finished() && !stopped_ && left() > 0 && !rest_ends());
@@ -683,9 +712,8 @@ class Driver {
                 if (last) {
                     return;
                 }
-                Index next = spectral()
-                                 ? more_modes(now.elements(), double(share), double(params_.unresolved), most())
-                                 : more_elements(now.elements(), double(error), double(params_.eps), most());
+                Index next = spectral() ? more_modes(now.elements(), double(share), double(params_.unresolved), most())
+                                        : more_elements(now.elements(), double(error), double(params_.eps), most());
                 if (spectral() && film_error_ > double(params_.eps) / 2) {
                     const double wanted = resolution.nodes_for_wall(thin, double(params_.eps) / 2);
                     next = std::max(next, elements_for_film(now.elements(), double(film.wall_nodes), wanted, most()));

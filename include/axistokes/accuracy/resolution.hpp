@@ -84,9 +84,9 @@ struct FilmResolution {
 
     /// How many nodes bring `wall`, or `gap`, down to `wanted`; forces in films of that slenderness.
     double nodes_for_wall(double slenderness, double wanted) const {
-        return spectral ? std::log(150 / wanted) / 1.7
-                        : std::max(std::sqrt(5.2 / unresolved),
-                                   std::cbrt(30 / (slenderness * slenderness * unresolved)));
+        return spectral
+                   ? std::log(150 / wanted) / 1.7
+                   : std::max(std::sqrt(5.2 / unresolved), std::cbrt(30 / (slenderness * slenderness * unresolved)));
     }
     double nodes_for_gap(double slenderness, double wanted) const {
         const double thin = slenderness * slenderness;
