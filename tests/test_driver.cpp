@@ -6,14 +6,18 @@
 #include <axistokes/discretization/linear_elements.hpp>
 #include <axistokes/discretization/spectral_meridian.hpp>
 #include <axistokes/flow/gravity.hpp>
+#include <axistokes/flow/quiescent.hpp>
 #include <axistokes/geometry/shapes.hpp>
 #include <axistokes/kernel/free_space.hpp>
+#include <axistokes/kernel/tube.hpp>
 #include <axistokes/membrane/rigid_body.hpp>
 #include <axistokes/membrane/vesicle.hpp>
 #include <axistokes/solver/dense.hpp>
 #include <axistokes/time/extrapolated_euler.hpp>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace {
 
@@ -36,6 +40,75 @@ auto settling(double excess_area, double bond, double longest_time = 0) {
             Scene(FreeSpaceKernel<double>(), discretization, Law(), Gravity<double>(bond), DenseLU<double>()),
             ExtrapolatedEulerOfOrder(), nodes_of(discretization, shape, elements), params);
     };
+}
+
+template <class Discretization>
+std::vector<Meridian<double>> spheres(const Discretization& discretization, Index elements,
+                                      const std::vector<double>& places) {
+    const auto ball = nodes_of(
+        discretization, [](Index n) { return sphere<double>(n); }, elements);
+    std::vector<Meridian<double>> shapes;
+    for (const double place : places) {
+        shapes.push_back(detail::shifted(ball, place));
+    }
+    return shapes;
+}
+
+/// Rigid spheres that settle.
+template <class Discretization>
+using Settlers = Settling<Discretization, RigidBody<double>>;
+
+template <class Discretization>
+auto settlers(double bond, const std::vector<double>& places, double accuracy, double longest_time = 0) {
+    return [=](Index elements) {
+        SimulationParams<double> params;
+        params.step_tolerance = accuracy / 4;
+        if (longest_time > 0) {
+            params.longest_time = longest_time;
+        }
+        const Discretization discretization;
+        return Settlers<Discretization>(Scene(FreeSpaceKernel<double>(), discretization, RigidBody<double>(),
+                                              Gravity<double>(bond), DenseLU<double>()),
+                                        ExtrapolatedEulerOfOrder::for_tolerance(params.step_tolerance),
+                                        spheres(discretization, elements, places), params);
+    };
+}
+
+DriverParams<double> accuracy(double eps, bool transient) {
+    DriverParams<double> params;
+    params.eps = eps;
+    params.unresolved = 2 * eps;
+    params.transient = transient;
+    return params;
+}
+
+/// Two spheres that approach each other at the speeds 1: error of the force, and what the driver says of it.
+template <class Discretization>
+void check_approach(double gap, double exact, std::optional<Index> elements, double eps) {
+    using Approaching = Simulator<FreeSpaceKernel<double>, Discretization, RigidBody<double>, Quiescent<double>,
+                                  ExtrapolatedEulerOfOrder, DenseLU<double>>;
+    DriverParams<double> params = accuracy(eps, false);
+    params.elements = elements;
+    Driver<Approaching> driver(
+        [&](Index n) {
+            const Discretization discretization;
+            const std::vector<RigidBody<double>> laws{{1.0}, {-1.0}};
+            return Approaching(
+                Scene(FreeSpaceKernel<double>(), discretization, laws, Quiescent<double>(), DenseLU<double>()),
+                ExtrapolatedEulerOfOrder(), spheres(discretization, n, {0, 2 + gap}));
+        },
+        params);
+    const auto& result = driver.run();
+    const auto& instant = *result.instant;
+    const double force =
+        instant.surface.weight.dot(instant.solution.force.tail(instant.surface.size())) / (6 * std::acos(-1.0));
+    const double error = std::abs(force / exact - 1);
+    INFO("gap " << gap << ", elements " << result.configuration.shape.elements() << ", force " << force << ", error "
+                << error << ", estimate " << result.error_estimate);
+    CHECK(error <= result.error_estimate);
+    if (!elements) {
+        CHECK(result.error_met());
+    }
 }
 
 /// Of Fig. 5 of the paper, D = 0.6 and B0 = 47, by 96 modes and Newton's method.
@@ -120,4 +193,86 @@ TEST_CASE("A shape that its modes cannot carry gets more of them") {
     CHECK(result.stationary);
     CHECK(result.error_met());
     CHECK(result.configuration.shape.elements() > 16);
+}
+
+TEST_CASE("Spheres that nearly touch: the error is within its estimate, whatever the number of elements") {
+    // By 256 to 400 modes; H. Brenner, Chem. Engng Sci. 16, 1961, has 40.05 for 0.0136 and 504.45 for 0.001.
+    using Spectral = SpectralMeridian<double>;
+    // 32 modes have a pole near 0.0135.
+    for (const Index n : {16, 24, 32, 40, 48, 64, 96}) {
+        check_approach<Spectral>(0.0136, 40.0499868, n, 1e-4);
+    }
+    check_approach<Spectral>(0.1, 7.41329761, 16, 1e-4);
+    check_approach<Spectral>(0.03, 19.6015945, 32, 1e-4);
+    check_approach<Spectral>(0.003, 170.627561, 128, 1e-4);
+    check_approach<Spectral>(0.001, 504.524955, 48, 1e-4);
+    check_approach<Spectral>(0.001, 504.524955, 128, 1e-4);
+    using Linear = LinearElements<double>;
+    check_approach<Linear>(0.03, 19.6015945, 64, 1e-4);
+    check_approach<Linear>(0.01, 53.4222937, 64, 1e-4);
+    check_approach<Linear>(0.001, 504.524955, 256, 1e-4);
+    // As many as it takes.
+    check_approach<Spectral>(0.0136, 40.0499868, std::nullopt, 1e-4);
+}
+
+TEST_CASE("Spheres followed in time: more modes as they approach, and an error within its estimate") {
+    for (const double eps : {1e-3, 1e-6}) {
+        Driver<Settlers<SpectralMeridian<double>>> driver(settlers<SpectralMeridian<double>>(10, {-3, 0, 3}, eps, 20.0),
+                                                          accuracy(eps, true));
+        const auto& result = driver.run();
+        CHECK(driver.simulator().time() == 20);
+        const double velocities[] = {-3.6010151, -3.6019364};
+        for (std::size_t b = 0; b < 2; ++b) {
+            const double error = std::abs(driver.simulator().instant(b).velocity / velocities[b] - 1);
+            INFO("accuracy " << eps << ", body " << b << ", velocity " << driver.simulator().instant(b).velocity
+                             << ", error " << error << ", estimate " << result.error_estimate << ", modes "
+                             << driver.simulator().configuration(b).shape.elements());
+            CHECK(error <= result.error_estimate + 2e-8);
+            CHECK(error < eps);
+        }
+        INFO("estimate " << result.error_estimate);
+        CHECK(result.error_met());
+    }
+}
+
+TEST_CASE("A given time is reached by bodies at rest relative to each other, and an instant takes no step") {
+    Driver<Settlers<SpectralMeridian<double>>> driver(settlers<SpectralMeridian<double>>(10, {0, 2.0001}, 1e-4, 10.0),
+                                                      accuracy(1e-4, true));
+    const auto& result = driver.run();
+    CHECK(result.stationary);
+    CHECK(result.error_met());
+    CHECK(driver.simulator().time() == 10);
+    CHECK(driver.simulator().configuration().position == Approx(10 * *result.velocity).epsilon(1e-6));
+    for (const auto& places : {std::vector<double>{0}, std::vector<double>{0, 3}}) {
+        Driver<Settlers<SpectralMeridian<double>>> instant(settlers<SpectralMeridian<double>>(10, places, 1e-4),
+                                                           accuracy(1e-4, false));
+        CHECK(instant.run().stationary);
+        CHECK(instant.simulator().history().empty());
+    }
+}
+
+TEST_CASE("A sphere followed through a tube has the modes that its film takes") {
+    using InTube = Simulator<TubeKernel<double>, SpectralMeridian<double>, RigidBody<double>, Gravity<double>,
+                             ExtrapolatedEulerOfOrder, DenseLU<double>>;
+    const double eps = 1e-6;
+    Driver<InTube> driver(
+        [&](Index n) {
+            TubeKernel<double>::Params tube;
+            tube.tolerance = 1e-9;
+            SimulationParams<double> params;
+            params.longest_time = 1;
+            params.step_tolerance = eps / 4;
+            const SpectralMeridian<double> discretization;
+            return InTube(Scene(TubeKernel<double>(1.03, tube), discretization, RigidBody<double>(),
+                                Gravity<double>(4.5), DenseLU<double>()),
+                          ExtrapolatedEulerOfOrder(3), spheres(discretization, n, {0}), params);
+        },
+        accuracy(eps, true));
+    const auto& result = driver.run();
+    CHECK(driver.simulator().time() == 1);
+    const double error = std::abs(*result.velocity / -8.99841764e-05 - 1);
+    INFO("error " << error << ", estimate " << result.error_estimate);
+    CHECK(error < result.error_estimate + 2e-9);
+    CHECK(result.error_met());
+    CHECK(driver.simulator().configuration().shape.elements() > 32);
 }

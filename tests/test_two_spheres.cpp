@@ -167,6 +167,44 @@ TEST_CASE("a sphere and a vesicle: far apart each moves as if alone", "[two sphe
     CHECK(std::log10(strained[0] / strained[1]) == Approx(2).margin(0.02));
 }
 
+TEST_CASE("a gap has one width, that of the curves, and nodes enough or not", "[two spheres]") {
+    const auto check = [](const auto& discretization, const Meridian<double>& lower, const Meridian<double>& upper) {
+        Scene scene(FreeSpaceKernel<double>{}, discretization, RigidBody<double>{}, Gravity<double>(1),
+                    DenseLU<double>{});
+        for (const double gap : {1e-4, 0.01, 0.3}) {
+            const State state{{lower, 0, {}}, {upper, 2 + gap, {}}};
+            const auto here = scene.gap_above(state, 0);
+            CHECK(here.width == Approx(gap).epsilon(1e-9));
+            CHECK(scene.film_thickness(state, 0).to_neighbour == here.width);
+            CHECK(scene.film_thickness(state, 1).to_neighbour == here.width);
+            // h'' = 2, and N elements along the length pi.
+            CHECK(here.slenderness == Approx(std::sqrt(gap)).epsilon(0.01));
+            const double nodes = std::sqrt(gap) * static_cast<double>(lower.elements());
+            CHECK(here.lower_nodes == Approx(nodes).epsilon(0.01));
+            CHECK(here.upper_nodes ==
+                  Approx(nodes * static_cast<double>(upper.elements()) / static_cast<double>(lower.elements()))
+                      .epsilon(0.01));
+        }
+    };
+    check(SpectralMeridian<double>{}, spectral_sphere(32), spectral_sphere(20));
+    check(LinearElements<double>{}, Spheroid{1, 1}.meridian(64), Spheroid{1, 1}.meridian(40));
+    // Off the axis, between nodes.
+    const auto circle = [](double z, double turned) {
+        Meridian<double> m{Vector<double>(41), Vector<double>(41)};
+        for (Index i = 0; i <= 40; ++i) {
+            const double t = turned + 2 * pi * static_cast<double>(i) / 40;
+            m.r[i] = 2 + std::cos(t);
+            m.z[i] = z + std::sin(t);
+        }
+        return m;
+    };
+    const auto closest = closest_approach(circle(0, 0.3), circle(2.05, 0.37));
+    CHECK(closest.distance == Approx(0.05).epsilon(1e-3));
+    CHECK(closest.length == Approx(std::sqrt(0.05)).epsilon(0.01));
+    const auto other = closest_approach(circle(2.05, 0.37), circle(0, 0.3));
+    CHECK(other.distance == Approx(closest.distance).epsilon(1e-12));
+}
+
 TEST_CASE("bodies that meet or lie in the wrong order are refused", "[two spheres]") {
     const auto ball = spectral_sphere(16);
     const auto simulate = [](const std::vector<Meridian<double>>& shapes) {

@@ -49,6 +49,21 @@ struct FilmThickness {
     /// Over the part of the meridian within 10 % of the largest radius, by arc length.
     S mean = std::numeric_limits<S>::infinity();
     S to_neighbour = std::numeric_limits<S>::infinity();
+    /// Least pi l/spacing along the curve, l = sqrt(2h/h'') and h the film at the wall: how many nodes its forces vary
+    /// over; and h/l there.
+    S wall_nodes = std::numeric_limits<S>::infinity();
+    S wall_slenderness = std::numeric_limits<S>::infinity();
+};
+
+/// The gap between two bodies at its narrowest, in R0.
+template <class S>
+struct Gap {
+    S width = std::numeric_limits<S>::infinity();
+    /// h/l, where l = sqrt(2h/h'') is the length over which the gap doubles.
+    S slenderness{};
+    /// pi l/spacing, of the nodes of the lower and of the upper body.
+    S lower_nodes = std::numeric_limits<S>::infinity();
+    S upper_nodes = std::numeric_limits<S>::infinity();
 };
 
 namespace detail {
@@ -261,20 +276,35 @@ class Scene {
     FilmThickness<Scalar> film_thickness(const Configuration<Scalar>& configuration) const {
         FilmThickness<Scalar> film;
         if constexpr (confined) {
-            film = film_along(discretization_.sampled(configuration.shape), configuration.position);
+            const Meridian<Scalar> curve = discretization_.sampled(configuration.shape);
+            film = film_along(curve, configuration.position);
+            film.wall_nodes /= points_per_node(curve, configuration.shape);
         }
         return film;
     }
     FilmThickness<Scalar> film_thickness(const State& state, std::size_t body) const {
         FilmThickness<Scalar> film = film_thickness(state[body]);
-        for (const std::size_t other : {body - 1, body + 1}) {
-            if (other < state.size()) {
-                const Scalar apart = state[other].position - state[body].position;
-                film.to_neighbour = std::min(
-                    film.to_neighbour, least_distance(state[body].shape, detail::shifted(state[other].shape, apart)));
-            }
+        if (body > 0) {
+            film.to_neighbour = gap_above(state, body - 1).width;
+        }
+        if (body + 1 < state.size()) {
+            film.to_neighbour = std::min(film.to_neighbour, gap_above(state, body).width);
         }
         return film;
+    }
+
+    /// Between a body and the next one, of their curves.
+    Gap<Scalar> gap_above(const State& state, std::size_t lower) const {
+        const Configuration<Scalar>& a = state[lower];
+        const Configuration<Scalar>& b = state[lower + 1];
+        const Meridian<Scalar> below = discretization_.sampled(a.shape);
+        const Meridian<Scalar> above =
+            detail::shifted(discretization_.sampled(b.shape), Scalar(b.position - a.position));
+        const ClosestApproach<Scalar> closest = closest_approach(below, above);
+        const Scalar scale = detail::pi_value<Scalar>() * closest.length;
+        return {closest.distance, closest.distance / closest.length,
+                scale / (closest.first_spacing * points_per_node(below, a.shape)),
+                scale / (closest.second_spacing * points_per_node(above, b.shape))};
     }
 
     /// Why nothing can be computed on a body; empty if something can. The curve between the nodes is checked too.
@@ -433,6 +463,11 @@ class Scene {
         return largest;
     }
 
+    static Scalar points_per_node(const Meridian<Scalar>& curve, const Meridian<Scalar>& shape) {
+        return Scalar(curve.elements()) / Scalar(shape.elements());
+    }
+
+    /// Of the points of `curve`.
     FilmThickness<Scalar> film_along(const Meridian<Scalar>& curve, const Scalar& position) const {
         using std::sqrt;
         FilmThickness<Scalar> film;
@@ -445,6 +480,8 @@ class Scene {
                 film.where = curve.z[i] + position;
             }
         }
+        const Scalar pi = detail::pi_value<Scalar>();
+        Scalar least = std::numeric_limits<Scalar>::max();
         const Scalar wide = curve.r.maxCoeff() * Scalar(0.9);
         Scalar covered = 0;
         Scalar sum = 0;
@@ -455,6 +492,13 @@ class Scene {
                 const Scalar slope = (gaps[i + 1] - gaps[i - 1]) / 2;
                 if (bend > Scalar(0) && gaps[i] <= gaps[i - 1] && gaps[i] <= gaps[i + 1]) {
                     film.min = std::min(film.min, Scalar(gaps[i] - slope * slope / (2 * bend)));
+                }
+                if (bend > Scalar(0) && gaps[i] > Scalar(0) && 2 * gaps[i] < bend * least * least) {
+                    least = sqrt(2 * gaps[i] / bend);
+                    film.wall_nodes = pi * least;
+                    const Scalar dr = curve.r[i + 1] - curve.r[i - 1];
+                    const Scalar dz = curve.z[i + 1] - curve.z[i - 1];
+                    film.wall_slenderness = 2 * gaps[i] / (least * sqrt(dr * dr + dz * dz));
                 }
             }
             // The part [a, b] of the chord, of length 1, that is wide enough.

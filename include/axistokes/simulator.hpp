@@ -190,7 +190,7 @@ class Simulator {
 
     /// Goes on with `elements` elements on the current curve of a body. Throws InvalidArgument for fewer than 8 and
     /// SimulationFailure, leaving the state as it was, if they cannot carry the shape.
-    void refine(Index elements, std::size_t body = 0) requires(SceneType::deformable) {
+    void refine(Index elements, std::size_t body = 0) {
         const Discretization& discretization = scene_.discretization();
         Configuration<Scalar> refined = configuration(body);
         refined.tension.resize(0);
@@ -207,6 +207,9 @@ class Simulator {
         moment_.bodies[body] = std::move(refined);
         moment_.instants.clear();
         motion_.resize(0);
+        for (std::size_t b = 0; b < bodies(); ++b) {
+            films_[b] = scene_.film_thickness(moment_.bodies, b);
+        }
     }
 
     /// One time step; the first body's record. Throws SimulationFailure, leaving the state as it was.

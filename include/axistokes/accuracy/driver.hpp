@@ -16,6 +16,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace axistokes {
 
@@ -114,6 +115,9 @@ class Driver {
     Index steps() const { return static_cast<Index>(simulator_->history().size()); }
     bool adapts() const { return !params_.elements; }
 
+    /// Rigid bodies cost less.
+    Index most(std::size_t body) const { return simulator_->scene().deforms(body) ? most() : 2 * most(); }
+
     /// Whether more than one instant matters: rigid bodies have no way to go unless asked for.
     bool moves() const {
         for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
@@ -162,6 +166,133 @@ class Driver {
         }
     }
 
+    /// Whether there are films: the bodies are several, or between walls.
+    bool has_films() const {
+        using std::isfinite;
+        return simulator_->bodies() > 1 ||
+               isfinite(simulator_->scene().gap({S(0), simulator_->configuration().position}));
+    }
+
+    /// The error that the films of the present instant leave in the result, and how many elements each body needs for
+    /// it to be allowed.
+    struct Films {
+        double error = 0;
+        std::vector<Index> needed;
+        /// The narrowest gap that even the most elements do not resolve.
+        std::optional<S> hopeless;
+        Index elements = 0;
+    };
+    Films films(const double wanted) {
+        using std::abs;
+        using std::isfinite;
+        Films films;
+        const auto& scene = simulator_->scene();
+        const auto& state = simulator_->state();
+        const FilmResolution resolution{spectral()};
+        const auto ask = [&](std::size_t body, const S& now, const double nodes) {
+            if (double(now) < nodes) {
+                const Index more = elements_for_film(shape(body).elements(), double(now), nodes, most(body));
+                films.needed[body] = std::max(films.needed[body], more);
+            }
+        };
+        for (std::size_t b = 0; b < state.size(); ++b) {
+            films.needed.push_back(shape(b).elements());
+        }
+        for (std::size_t b = 0; b < state.size(); ++b) {
+            const auto film = scene.film_thickness(state[b]);
+            if (isfinite(film.wall_nodes)) {
+                const double error = resolution.wall(double(film.wall_nodes), double(film.wall_slenderness));
+                films.error = std::max(films.error, error);
+                if (error > wanted) {
+                    ask(b, film.wall_nodes, resolution.nodes_for_wall(double(film.wall_slenderness), wanted));
+                }
+            }
+        }
+        for (std::size_t b = 0; b + 1 < state.size(); ++b) {
+            const Gap<S> gap = scene.gap_above(state, b);
+            if (!(gap.slenderness > S(0))) {
+                continue;
+            }
+            const auto thin = double(gap.slenderness);
+            const double nodes = double(std::min(gap.lower_nodes, gap.upper_nodes));
+            const double share = gap_share(b);
+            const double error = resolution.gap(nodes, thin, share);
+            films.error = std::max(films.error, error);
+            if (error <= wanted) {
+                continue;
+            }
+            const double least =
+                resolution.nodes_for_gap(thin, std::min(FilmResolution::unresolved, spectral() ? wanted / share : 1.0));
+            ask(b, gap.lower_nodes, least);
+            ask(b + 1, gap.upper_nodes, least);
+            const bool more = films.needed[b] > shape(b).elements() || films.needed[b + 1] > shape(b + 1).elements();
+            if (resolution.gap(nodes, thin) > FilmResolution::unresolved && !more &&
+                (!films.hopeless || gap.width < *films.hopeless)) {
+                films.hopeless = gap.width;
+                films.elements = std::min(shape(b).elements(), shape(b + 1).elements());
+            }
+        }
+        return films;
+    }
+
+    /// How much of the result depends on the force in a gap: the velocities at which it closes and drains, relative to
+    /// that of the bodies. Of bodies moved at given velocities the forces are the result.
+    double gap_share(std::size_t lower) {
+        using std::abs;
+        if (!(simulator_->scene().velocity_scale() > S(0))) {
+            return 1;
+        }
+        const auto& a = simulator_->instant(lower);
+        const auto& b = simulator_->instant(lower + 1);
+        S fastest = 0;
+        for (std::size_t k = 0; k < simulator_->bodies(); ++k) {
+            fastest = std::max<S>(fastest, abs(simulator_->instant(k).velocity));
+        }
+        const S closing = abs(a.velocity - b.velocity) + a.deformation_rate + b.deformation_rate;
+        return std::min(1.0, double(closing / fastest));
+    }
+
+    double allowed_of_films() const {
+        return params_.transient ? double(params_.eps) / 2 : double(allowed()) / Accuracy<S>::unresolved_to_error;
+    }
+
+    /// Whether a film needs more elements than there are.
+    bool films_need() {
+        if (!has_films()) {
+            return false;
+        }
+        const Films now = films(allowed_of_films());
+        for (std::size_t b = 0; b < now.needed.size(); ++b) {
+            if (adapts() && now.needed[b] > shape(b).elements()) {
+                return true;
+            }
+        }
+        film_error_ = params_.transient ? std::max(film_error_, now.error) : now.error;
+        return adapts() && now.hopeless;
+    }
+
+    /// More elements where films need them. Throws SimulationFailure where the most are not enough.
+    void resolve_films() {
+        while (films_need()) {
+            const Films now = films(allowed_of_films());
+            bool added = false;
+            for (std::size_t b = 0; b < now.needed.size(); ++b) {
+                if (now.needed[b] > shape(b).elements()) {
+                    simulator_->refine(now.needed[b], b);
+                    added = true;
+                }
+            }
+            if (!added) {
+                throw SimulationFailure("the distance to the next body, " + detail::text(*now.hopeless) +
+                                        ", is less than " + std::to_string(now.elements) + " elements can resolve");
+            }
+        }
+    }
+
+    S film_error() const {
+        return film_error_ <= FilmResolution::unresolved ? S(film_error_) : std::numeric_limits<S>::infinity();
+    }
+
     /// At least `first` steps, then until the residual is below `residual`, until `last` steps or the end of the run;
     /// with more elements as soon as a shape needs them, or if the simulation cannot go on with those it has.
     void march(const S& residual, Index first, Index last) {
@@ -169,48 +300,65 @@ class Driver {
         int rescues = 3;
         const auto observe = [&](const auto& record) {
             stopped_ = !observe_(*simulator_);
-            going = (record.step < first || !(simulator_->residual() < residual)) && record.step < last &&
-                    !simulator_->finished() && !stopped_;
-            return going && !needy();
+            const bool rests = record.step >= first && simulator_->residual() < residual && rest_ends();
+            going = !rests && record.step < last && !simulator_->finished() && !stopped_;
+            return going && !needy() && !films_need();
         };
         while (going && steps() < last && !simulator_->finished()) {
             try {
+                resolve_films();
                 simulator_->run(observe);
             } catch (const SimulationFailure&) {
-                if (!adapts() || !deformable || elements() >= most() || rescues-- == 0) {
+                if (!adapts() || rescues-- == 0 || !rescue()) {
                     throw;
                 }
-                rescue();
                 continue;
             }
             if (const auto body = needy(); body && !stopped_) {
                 add_elements(*body);
                 going = steps() < last;
             } else {
-                going = going && !simulator_->stationary();
+                going = going && !(simulator_->stationary() && rest_ends());
             }
+            going = going || (!stopped_ && films_need());
+        }
+        if (!stopped_) {
+            resolve_films();
         }
     }
 
-    /// Goes on with half as many elements again: a shape that cannot move on may not be carried by those it has.
-    void rescue() {
+    /// Whether nothing is left to follow once the bodies have come to rest. To a given time they move on.
+    bool rest_ends() const {
+        const bool lone_shape = simulator_->bodies() == 1 && simulator_->scene().deforms(0);
+        return !params_.transient || lone_shape || !(simulator_->params().longest_time < std::numeric_limits<S>::max());
+    }
+
+    /// Goes on with half as many elements again, if there are any to add: a shape that cannot move on may not be
+    /// carried by those it has.
+    bool rescue() {
+        bool added = false;
         if constexpr (deformable) {
-            const Index next = std::min(most(), elements() + elements() / 2);
-            if (steps() == 0) {
-                restart(next);
-            } else {
-                for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
-                    if (simulator_->scene().deforms(b)) {
-                        simulator_->refine(next, b);
-                    }
+            for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
+                const Index now = shape(b).elements();
+                const Index next = std::min(most(), now + now / 2);
+                if (!simulator_->scene().deforms(b) || next <= now) {
+                    continue;
                 }
+                added = true;
+                if (steps() == 0) {
+                    restart(next);
+                    break;
+                }
+                simulator_->refine(next, b);
             }
         }
+        return added;
     }
 
     void march_on() { march(simulator_->params().tolerance, 0, simulator_->params().most_steps); }
 
     void march_to_the_end() {
+        resolve_rigid();
         march_on();
         if (spectral()) {
             estimate_from_modes();
@@ -222,43 +370,80 @@ class Driver {
         take();
     }
 
+    bool all_rigid() const {
+        bool rigid = true;
+        for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
+            rigid = rigid && !simulator_->scene().deforms(b);
+        }
+        return rigid;
+    }
+
+    /// Of rigid bodies the first instant tells how many elements their tractions need; gaps may need more later.
+    void resolve_rigid() {
+        while (spectral() && adapts() && all_rigid() && elements() < 2 * most() &&
+               !(finer_difference() <= params_.eps)) {
+            restart(std::min(2 * most(), elements() + elements() / 2));
+        }
+    }
+
+    /// From the velocities, or forces, that a quarter more elements give rigid bodies at the present instant.
+    S finer_difference() {
+        auto state = simulator_->state();
+        for (auto& body : state) {
+            const Index n = body.shape.elements();
+            body.shape = discretization().redistributed(body.shape, n + std::max<Index>(4, n / 4));
+        }
+        try {
+            auto scene = simulator_->scene();
+            return rigid_error(velocity_and_force(simulator_->moment().instants),
+                               velocity_and_force(scene.evaluate(state, S(0))), elements());
+        } catch (const SimulationFailure&) {
+            return std::numeric_limits<S>::infinity();
+        }
+    }
+
     /// Velocity and force of a rigid body. Its shape may be simple and its traction is not: two results tell the error
     /// of the coarser one, or, of second order, that of the finer.
     void solve_rigid() {
         const Index most_of_rigid = 2 * most();
-        settle_rigid();
-        auto now = velocity_and_force(*simulator_);
+        auto now = velocity_and_force(simulator_->moment().instants);
         if (!adapts()) {
             Simulator coarse = make_(std::max(minimum_elements, (2 * elements()) / 3));
-            result_.error_estimate =
-                rigid_error(velocity_and_force(coarse), now, coarse.configuration().shape.elements());
+            judge_rigid(velocity_and_force(coarse.moment().instants), now, coarse.configuration().shape.elements());
         }
         while (adapts() && !(result_.error_estimate <= params_.eps) && elements() < most_of_rigid && !stopped_) {
             const Index before = elements();
             const double error = std::min(1.0, double(result_.error_estimate));
             restart(spectral() ? std::min(most_of_rigid, before + before / 2)
                                : more_elements(before, error, double(params_.eps), most_of_rigid));
-            settle_rigid();
-            const auto finer = velocity_and_force(*simulator_);
-            result_.error_estimate = rigid_error(now, finer, before);
+            const auto finer = velocity_and_force(simulator_->moment().instants);
+            judge_rigid(now, finer, before);
             now = finer;
         }
         take();
+        // Stationary at once, if they move alike.
+        const S scale = std::max(S(1), simulator_->scene().velocity_scale());
+        result_.residual = (now.first.array() - now.first[0]).abs().maxCoeff() / scale;
+        result_.stationary = *result_.residual < simulator_->params().tolerance;
     }
 
-    /// One body is stationary at once; of several the instant they are given at is wanted.
-    void settle_rigid() {
-        if (simulator_->bodies() == 1) {
-            march_on();
+    /// Two results may agree by chance where a gap is hardly resolved.
+    void judge_rigid(const std::pair<Vector<S>, Vector<S>>& coarse, const std::pair<Vector<S>, Vector<S>>& fine,
+                     Index coarse_elements) {
+        result_.error_estimate = rigid_error(coarse, fine, coarse_elements);
+        if (has_films()) {
+            film_error_ = films(double(params_.eps)).error;
+            result_.error_estimate = std::max(result_.error_estimate, film_error());
         }
     }
 
     /// Of all bodies.
-    static std::pair<Vector<S>, Vector<S>> velocity_and_force(Simulator& simulator) {
-        const auto count = static_cast<Index>(simulator.bodies());
+    template <class Instants>
+    static std::pair<Vector<S>, Vector<S>> velocity_and_force(const Instants& instants) {
+        const auto count = static_cast<Index>(instants.size());
         std::pair<Vector<S>, Vector<S>> result{Vector<S>(count), Vector<S>(count)};
         for (Index b = 0; b < count; ++b) {
-            const auto& instant = simulator.instant(static_cast<std::size_t>(b));
+            const auto& instant = instants[static_cast<std::size_t>(b)];
             result.first[b] = instant.velocity;
             result.second[b] = instant.surface.weight.dot(instant.solution.force.tail(instant.surface.size()));
         }
@@ -276,13 +461,25 @@ class Driver {
         return spectral() ? difference : S(difference / (ratio * ratio - S(1)));
     }
 
-    MeasuredState measured(const Simulator& simulator) const {
-        const auto& configuration = simulator.configuration();
-        const auto& history = simulator.history();
+    /// Of all bodies.
+    std::vector<MeasuredState> measured(const Simulator& simulator) const {
+        std::vector<MeasuredState> states;
         // Nothing drives a body at rest: its velocity is no result.
         const bool driven = simulator.scene().velocity_scale() > S(0);
-        return {driven && !history.empty() ? double(history.back().velocity) : 0.0, length(configuration),
-                configuration.shape.elements()};
+        for (std::size_t b = 0; b < simulator.bodies(); ++b) {
+            const auto& configuration = simulator.configuration(b);
+            const auto& history = simulator.history(b);
+            states.push_back({driven && !history.empty() ? double(history.back().velocity) : 0.0, length(configuration),
+                              configuration.shape.elements()});
+        }
+        return states;
+    }
+    static double largest_error(const std::vector<MeasuredState>& coarse, const std::vector<MeasuredState>& fine) {
+        double error = 0;
+        for (std::size_t b = 0; b < fine.size(); ++b) {
+            error = std::max(error, second_order_error(coarse[b], fine[b]));
+        }
+        return error;
     }
     static double length(const Configuration<S>& c) {
         return static_cast<double>(c.shape.z[c.shape.nodes() - 1] - c.shape.z[0]);
@@ -294,40 +491,93 @@ class Driver {
             for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
                 share = std::max<S>(share, discretization().unresolved(shape(b)));
             }
-            result_.error_estimate = share / S(Accuracy<S>::unresolved_to_error) + time_error();
+            result_.error_estimate = share / S(Accuracy<S>::unresolved_to_error) + time_error() + film_error();
+            if (all_rigid()) {
+                result_.error_estimate += finer_difference();
+            }
         }
     }
 
-    /// Of steps of first order to a given time: the sum of dt/2 times the change of the velocities, relative to the
-    /// length. Steps that estimate their error keep to the accuracy.
+    /// Of the steps to a given time. Where they estimate their error a lone deformable body keeps to the accuracy; of
+    /// others the sum of these is an error of their places, on which velocities depend.
     S time_error() const {
-        using std::abs;
-        const auto& history = simulator_->history();
-        S sum = 0;
-        if (!params_.transient || history.empty() || history.back().step_error > S(0)) {
-            return sum;
+        S largest = 0;
+        for (std::size_t b = 0; b < simulator_->bodies() && params_.transient; ++b) {
+            const auto& history = simulator_->history(b);
+            if (history.empty()) {
+                continue;
+            }
+            const bool lone_shape = simulator_->bodies() == 1 && simulator_->scene().deforms(0);
+            if (!(history.back().step_error > S(0))) {
+                largest = std::max<S>(largest, first_order_error(b));
+            } else if (!lone_shape) {
+                largest = std::max<S>(largest, place_error(b));
+            }
         }
+        return largest;
+    }
+
+    /// The sum of dt/2 times the change of the velocities, relative to the length.
+    S first_order_error(std::size_t body) const {
+        using std::abs;
+        const auto& history = simulator_->history(body);
         const S scale = std::max(S(1), simulator_->scene().velocity_scale());
+        S sum = 0;
         for (std::size_t i = 1; i < history.size(); ++i) {
             sum += history[i].dt / 2 *
                    (scale * abs(history[i].residual - history[i - 1].residual) +
                     abs(history[i].velocity - history[i - 1].velocity));
         }
-        return sum / S(length(simulator_->configuration()));
+        return sum / S(length(simulator_->configuration(body)));
+    }
+
+    /// The sum of the errors of all steps times the most that the velocity has changed by while bodies moved relative
+    /// to each other, or deformed, by as much.
+    S place_error(std::size_t body) const {
+        using std::abs;
+        const auto& history = simulator_->history(body);
+        const S scale = std::max(S(1), simulator_->scene().velocity_scale());
+        S sum = history.front().step_error;
+        S slope = 0;
+        S before = scale * simulator_->history(0).front().residual;
+        for (std::size_t i = 1; i < history.size(); ++i) {
+            S rate = 0;
+            for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
+                rate = std::max<S>(rate, scale * simulator_->history(b)[i].residual);
+            }
+            const bool lone = simulator_->bodies() == 1;
+            const S moved =
+                lone ? S(abs(history[i].position - history[i - 1].position)) : S(history[i].dt * (rate + before) / 2);
+            if (moved > S(1e-6 * length(simulator_->configuration(body)))) {
+                slope = std::max<S>(slope, abs(history[i].velocity - history[i - 1].velocity) / moved);
+            }
+            sum += history[i].step_error;
+            before = rate;
+        }
+        return sum * slope / std::max(S(abs(history.back().velocity)), S(1e-3));
     }
 
     /// P1: from the difference to a run with three quarters of the elements; half of them may not be in the range of
     /// second order.
     void estimate_from_coarser() {
-        const MeasuredState fine = measured(*simulator_);
-        const Index fewer = std::max(minimum_elements, (3 * fine.elements) / 4);
-        if (fewer == fine.elements || stopped_) {
+        const auto fine = measured(*simulator_);
+        const Index fewer = std::max(minimum_elements, (3 * elements()) / 4);
+        if (fewer == elements() || stopped_) {
             return;
         }
         try {
             Simulator coarse = make_(fewer);
-            coarse.run([&](const auto&) { return !coarse.finished(); });
-            result_.error_estimate = S(second_order_error(measured(coarse), fine)) + time_error();
+            const auto observe = [&](const auto&) {
+                stopped_ = !observe_(*simulator_);
+                return !coarse.finished() && !stopped_;
+            };
+            const auto left = [&] { return coarse.params().most_steps - static_cast<Index>(coarse.history().size()); };
+            do {
+                coarse.run(observe);
+            } while (!coarse.finished() && !stopped_ && left() > 0 && !rest_ends());
+            if (!stopped_) {
+                result_.error_estimate = S(largest_error(measured(coarse), fine)) + time_error() + film_error();
+            }
         } catch (const SimulationFailure&) {
             // Without a coarser result there is no telling.
         }
@@ -335,21 +585,24 @@ class Driver {
 
     /// P1: more and more elements until two results agree.
     void refine_until_met() {
-        MeasuredState coarse = measured(*simulator_);
+        auto coarse = measured(*simulator_);
         double error = 1;  // unknown
         while (!stopped_) {
-            const Index next = more_elements(coarse.elements, error, double(params_.eps), most());
+            const Index next = more_elements(elements(), error, double(params_.eps), most(0));
             if (params_.transient || !deformable) {
                 restart(next);
-            } else if constexpr (deformable) {
-                simulator_->refine(next);
+            } else {
+                for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
+                    simulator_->refine(next, b);
+                }
             }
+            film_error_ = 0;
             march_on();
-            const MeasuredState fine = measured(*simulator_);
-            error = second_order_error(coarse, fine);
+            const auto fine = measured(*simulator_);
+            error = largest_error(coarse, fine);
             coarse = fine;
-            result_.error_estimate = S(error) + time_error();
-            if (error <= double(params_.eps) || fine.elements >= most()) {
+            result_.error_estimate = S(error) + time_error() + film_error();
+            if (error <= double(params_.eps) || elements() >= most(0)) {
                 break;
             }
         }
@@ -437,12 +690,18 @@ class Driver {
             if (!spectral()) {
                 error = coarse_difference(solver, state, area, volume);
             }
+            const FilmResolution resolution{spectral()};
             for (;;) {
                 const Meridian<S>& now = state.configuration.shape;
+                S share = 0;
                 if constexpr (can_judge) {
-                    error =
-                        spectral() ? S(discretization().unresolved(now) / S(Accuracy<S>::unresolved_to_error)) : error;
+                    share = discretization().unresolved(now);
+                    error = spectral() ? S(share / S(Accuracy<S>::unresolved_to_error)) : error;
                 }
+                const auto film = simulator_->scene().film_thickness(state.configuration);
+                const auto thin = double(film.wall_slenderness);
+                film_error_ = resolution.wall(double(film.wall_nodes), thin);
+                error += film_error();
                 adopt(state, error);
                 const bool last = error <= params_.eps || !adapts() || now.elements() >= most() || stopped_;
                 // Growth rates need no more than a recognisable shape, and cost as much as many iterations.
@@ -453,9 +712,12 @@ class Driver {
                 if (last) {
                     return;
                 }
-                const Index next =
-                    spectral() ? more_modes(now.elements(), 2 * double(error), double(params_.unresolved), most())
-                               : more_elements(now.elements(), double(error), double(params_.eps), most());
+                Index next = spectral() ? more_modes(now.elements(), double(share), double(params_.unresolved), most())
+                                        : more_elements(now.elements(), double(error), double(params_.eps), most());
+                if (spectral() && film_error_ > double(params_.eps) / 2) {
+                    const double wanted = resolution.nodes_for_wall(thin, double(params_.eps) / 2);
+                    next = std::max(next, elements_for_film(now.elements(), double(film.wall_nodes), wanted, most()));
+                }
                 try {
                     auto finer = solver.solve(discretization().redistributed(now, next), area, volume);
                     result_.newton_iterations += finer.iterations;
@@ -528,6 +790,7 @@ class Driver {
     Observer observe_;
     std::optional<Simulator> simulator_;
     Result result_;
+    double film_error_ = 0;  // of the last step; if the way matters, the largest of all
     bool stopped_ = false;
 };
 

@@ -54,6 +54,52 @@ inline Index more_elements(Index elements, double error, double wanted, Index mo
     return std::min(static_cast<Index>(std::ceil(std::clamp(needed, 1.3 * n, 2 * n))), most);
 }
 
+/// What a film does to the error of a result when forces in it vary over n nodes (FilmThickness::wall_nodes, Gap), as
+/// fitted to spheres (docs/accuracy.md, "Gaps"). Of its own force, relative; beyond `unresolved` it is no estimate.
+struct FilmResolution {
+    static constexpr double unresolved = 0.1;
+    /// With what factor the error of an unresolved gap's width changes its force.
+    static constexpr double unresolved_factor = 30;
+
+    bool spectral = true;
+
+    /// Bodies that slide along a wall. Of P1 elements two meshes tell more as long as this is small: it then is 0.
+    double wall(double n, double slenderness) const {
+        if (spectral) {
+            return 150 * std::exp(-1.7 * n);
+        }
+        const double error = (2.6 + 15 / (slenderness * slenderness * n)) / (n * n);
+        return error > unresolved ? error : 0;
+    }
+    /// Bodies that approach each other.
+    double gap(double n, double slenderness) const {
+        const double thin = slenderness * slenderness;
+        return spectral ? 0.6 / thin * std::exp(-1.2 * n) : (1.5 + 4e-4 / (thin * thin)) / (n * n);
+    }
+    /// The same of the result when the gap's force is about `share` of what moves the bodies.
+    double gap(double n, double slenderness, double share) const {
+        const double error = gap(n, slenderness);
+        return share * (error <= unresolved ? error : std::max(error, unresolved_factor));
+    }
+
+    /// How many nodes bring `wall`, or `gap`, down to `wanted`; forces in films of that slenderness.
+    double nodes_for_wall(double slenderness, double wanted) const {
+        return spectral
+                   ? std::log(150 / wanted) / 1.7
+                   : std::max(std::sqrt(5.2 / unresolved), std::cbrt(30 / (slenderness * slenderness * unresolved)));
+    }
+    double nodes_for_gap(double slenderness, double wanted) const {
+        const double thin = slenderness * slenderness;
+        return spectral ? std::log(0.6 / (thin * wanted)) / 1.2 : std::sqrt((1.5 + 4e-4 / (thin * thin)) / wanted);
+    }
+};
+
+/// The number of elements that has `wanted` nodes where there are `now`, and some to spare: films get thinner.
+inline Index elements_for_film(Index elements, double now, double wanted, Index most) {
+    const double needed = static_cast<double>(elements) * std::max(1.15, 1.1 * wanted / now);
+    return needed < static_cast<double>(most) ? static_cast<Index>(std::ceil(needed)) : most;
+}
+
 /// `elements` elements on the curve that `shape(count)` gives any number of nodes on. A series wants its nodes spaced
 /// by itself: the initial shapes' spacing has kinks that it would have to resolve.
 template <class Discretization, class Shape>
