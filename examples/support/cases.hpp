@@ -3,9 +3,9 @@
 #pragma once
 
 #include "command_line.hpp"
-#include <axistokes/io/atomic_file.hpp>
 #include "csv_input.hpp"
 #include <axistokes/core.hpp>
+#include <axistokes/io/atomic_file.hpp>
 
 #include <algorithm>
 #include <array>
