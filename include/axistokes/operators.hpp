@@ -113,8 +113,8 @@ Operator scaled(const S& factor, Operator a) {
 
 /// diag(factors) a.
 template <class Operator, class S>
-Operator rows_scaled(const Vector<S>& factors, Operator a) {
-    return factors.asDiagonal() * std::move(a);
+Operator rows_scaled(const Vector<S>& factors, const Operator& a) {
+    return factors.asDiagonal() * a;
 }
 template <class S>
 Sparse<S> rows_scaled(const Vector<S>& factors, Sparse<S> a) {
