@@ -16,7 +16,8 @@
 #include <axistokes/time/extrapolated_euler.hpp>
 
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace {
@@ -275,4 +276,29 @@ TEST_CASE("A sphere followed through a tube has the modes that its film takes") 
     CHECK(error < result.error_estimate + 2e-9);
     CHECK(result.error_met());
     CHECK(driver.simulator().configuration().shape.elements() > 32);
+}
+
+TEST_CASE("A gap that the most modes do not resolve ends the run, with that as the cause") {
+    using Vesicles = Settling<SpectralMeridian<double>, Vesicle<double>>;
+    Driver<Vesicles> driver(
+        [](Index n) {
+            SimulationParams<double> params;
+            params.longest_time = 0.1;
+            const SpectralMeridian<double> discretization;
+            const auto shape = [](Index k) { return spheroid_of_excess_area(0.6, SpheroidKind::prolate, k); };
+            const auto nodes = nodes_of(discretization, shape, n);
+            return Vesicles(Scene(FreeSpaceKernel<double>(), discretization, Vesicle<double>(), Gravity<double>(47),
+                                  DenseLU<double>()),
+                            ExtrapolatedEulerOfOrder(3), {nodes, detail::shifted(nodes, 2.87)}, params);
+        },
+        accuracy(1e-4, true));
+    std::string cause;
+    try {
+        driver.run();
+    } catch (const SimulationFailure& failure) {
+        cause = failure.what();
+    }
+    CHECK(cause.find("the distance to the next body, 0.0022") == 0);
+    CHECK(cause.find("is less than 160 elements can resolve") != std::string::npos);
+    CHECK_FALSE(driver.result().error_met());
 }
