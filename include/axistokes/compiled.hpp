@@ -36,7 +36,6 @@ AXISTOKES_GEOMETRY bool restore_volume(Meridian<double>&, const double&, const d
 AXISTOKES_GEOMETRY double spacing_distortion(const Meridian<double>&, const NodeSpacing<double>&);
 AXISTOKES_GEOMETRY Meridian<double> redistribute(const Meridian<double>&, const NodeSpacing<double>&, Index);
 AXISTOKES_GEOMETRY double distance(const Meridian<double>&, const Meridian<double>&);
-AXISTOKES_GEOMETRY double least_distance(const Meridian<double>&, const Meridian<double>&);
 AXISTOKES_GEOMETRY Meridian<double> spheroid(const double&, const double&, Index, const NodeSpacing<double>&);
 AXISTOKES_GEOMETRY Meridian<double> sphere(Index, const double&, const NodeSpacing<double>&);
 AXISTOKES_GEOMETRY Meridian<double> spheroid_of_aspect(const double&, Index, const NodeSpacing<double>&);
