@@ -142,7 +142,7 @@ def main():
     parser.add_argument("scene", nargs="*", help="scenes whose names begin so; default: all")
     parser.add_argument("--bin", default="build/examples", help="directory of the programs (default: build/examples)")
     parser.add_argument("--work", default="build/presets", help="directory for the runs (default: build/presets)")
-    parser.add_argument("--stationary", default="march", help="march or newton (default: march)")
+    parser.add_argument("--stationary", default="auto", help="auto, march or newton (default: auto)")
     parser.add_argument("--other", default="", metavar="OPTIONS",
                         help="of the programs, for fast and balanced: '--discretization linear', '--method wall'")
     parser.add_argument("--timeout", type=float, default=240,
