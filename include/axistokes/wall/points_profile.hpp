@@ -4,7 +4,9 @@
 
 #include "profile.hpp"
 
+// Boost 1.74's pchip calls isnan without a namespace.
 #include <boost/math/interpolators/pchip.hpp>
+#include <math.h>
 
 #include <vector>
 
