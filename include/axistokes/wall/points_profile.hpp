@@ -4,9 +4,10 @@
 
 #include "profile.hpp"
 
-// Boost 1.74's pchip calls isnan without a namespace.
+// clang-format off: Boost 1.74's pchip calls isnan without a namespace.
 #include <boost/math/interpolators/pchip.hpp>
 #include <math.h>
+// clang-format on
 
 #include <vector>
 
