@@ -4,9 +4,10 @@
 
 #include "profile.hpp"
 
-// clang-format off: Boost 1.74's pchip calls isnan without a namespace.
-#include <boost/math/interpolators/pchip.hpp>
+// Boost 1.74's pchip calls isnan without a namespace: in this order.
+// clang-format off
 #include <math.h>
+#include <boost/math/interpolators/pchip.hpp>
 // clang-format on
 
 #include <vector>
