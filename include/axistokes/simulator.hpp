@@ -128,7 +128,8 @@ class Simulator {
             if (b > 0) {
                 const Scalar below = state[b - 1].position + state[b - 1].shape.z[state[b - 1].shape.elements()];
                 const Scalar apart = state[b].position + state[b].shape.z[0] - below;
-                detail::require(state[b].position > state[b - 1].position && films_[b].to_neighbour > Scalar(0) &&
+                detail::require(state[b].position > state[b - 1].position &&
+                                    films_[b].to_neighbour > 32 * std::numeric_limits<Scalar>::epsilon() &&
                                     !meet(state[b - 1], state[b]),
                                 "initial shapes: distance of a body to the one before it", apart,
                                 "such that they do not meet, in the order in which they lie along the axis");
