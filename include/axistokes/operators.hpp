@@ -63,12 +63,6 @@ Vector<S> applied(const Operator& a, const Vector<S>& x) {
     return a * x;
 }
 
-/// a^T x.
-template <class S>
-Vector<S> applied_transposed(const Matrix<S>& a, const Vector<S>& x) {
-    return a.transpose() * x;
-}
-
 /// a b.
 template <class Operator>
 Operator product(const Operator& a, const Operator& b) {

@@ -43,20 +43,20 @@ struct SpectralSurface {
     /// Operator -> scalar per node, as a stacked field along the frozen normals.
     Operator along_normal(const Operator& scalar) const {
         Operator spread(2 * size(), scalar.cols());
-        detail::set_block(spread, 0, 0, detail::rows_scaled(normal_r, scalar));
-        detail::set_block(spread, size(), 0, detail::rows_scaled(normal_z, scalar));
+        spread.topRows(size()) = normal_r.asDiagonal() * scalar;
+        spread.bottomRows(size()) = normal_z.asDiagonal() * scalar;
         return spread;
     }
     /// Int of a stacked field's normal component over the surface; exactly 0 for a translation.
     S flux(const Vector<S>& field) const { return volume_gradient.dot(field); }
     S area() const { return weight.sum(); }
-    Vector<S> at_nodes(const Vector<S>& tension) const { return detail::applied(tension_at_nodes, tension); }
+    Vector<S> at_nodes(const Vector<S>& tension) const { return tension_at_nodes * tension; }
     /// Derivative along the meridian of nodal values; 0 at the poles.
     Vector<S> surface_gradient(const Vector<S>& values) const {
-        return detail::applied(basis->even_first(), values).cwiseQuotient(speed);
+        return (basis->even_first() * values).cwiseQuotient(speed);
     }
     /// Surface divergence of a stacked nodal field, at the nodes.
-    Vector<S> surface_divergence(const Vector<S>& field) const { return at_nodes(detail::applied(divergence, field)); }
+    Vector<S> surface_divergence(const Vector<S>& field) const { return at_nodes(divergence * field); }
 };
 
 /// Degree of the tension's series. The tension is the Lagrange multiplier of div_s u = 0: with one mode less than the
@@ -108,10 +108,10 @@ class SpectralSurfaceBuilder {
 
     void metric() {
         const Meridian<S>& m = s_.nodes;
-        r1_ = applied(basis_->odd_first(), m.r);
-        z1_ = applied(basis_->even_first(), m.z);
-        r2_ = applied(basis_->odd_second(), m.r);
-        z2_ = applied(basis_->even_second(), m.z);
+        r1_ = basis_->odd_first() * m.r;
+        z1_ = basis_->even_first() * m.z;
+        r2_ = basis_->odd_second() * m.r;
+        z2_ = basis_->even_second() * m.z;
         s_.speed = (r1_.cwiseAbs2() + z1_.cwiseAbs2()).cwiseSqrt();
         s_.normal_r = z1_.cwiseQuotient(s_.speed);
         s_.normal_z = -r1_.cwiseQuotient(s_.speed);
@@ -119,7 +119,7 @@ class SpectralSurfaceBuilder {
         s_.normal_z[0] = -1;
         s_.normal_z[n_ - 1] = 1;
         // The integral of a cosine series, a_0 t + sum_k (a_k/k) sin kt.
-        Vector<S> integral = applied(basis_->even_coefficients(), s_.speed);
+        Vector<S> integral = basis_->even_coefficients() * s_.speed;
         for (Index k = 1; k < n_; ++k) {
             integral[k] /= S(k);
         }
@@ -139,17 +139,13 @@ class SpectralSurfaceBuilder {
     /// V = pi Int r^2 z' dt, a trigonometric polynomial that the fine rule integrates exactly, and so the gradient.
     void volume() {
         const auto& fine = basis_->fine();
-        const Vector<S> r = applied(fine.odd, s_.nodes.r);
-        const Vector<S> r1 = applied(fine.odd_slope, s_.nodes.r);
-        const Vector<S> z1 = applied(fine.even_slope, s_.nodes.z);
-        Vector<S> along_r(r.size());
-        Vector<S> along_z(r.size());
-        for (Index q = 0; q < r.size(); ++q) {
-            const S ring = 2 * pi_value<S>() * fine.weights[q] * r[q];
-            along_r[q] = ring * z1[q];
-            along_z[q] = -ring * r1[q];
-        }
-        s_.volume_gradient = stacked(applied_transposed(fine.odd, along_r), applied_transposed(fine.even, along_z));
+        const Vector<S> r = fine.odd * s_.nodes.r;
+        const Vector<S> r1 = fine.odd_slope * s_.nodes.r;
+        const Vector<S> z1 = fine.even_slope * s_.nodes.z;
+        const Vector<S> ring = 2 * pi_value<S>() * fine.weights.cwiseProduct(r);
+        s_.volume_gradient.resize(2 * n_);
+        s_.volume_gradient.head(n_) = fine.odd.transpose() * ring.cwiseProduct(z1);
+        s_.volume_gradient.tail(n_) = -(fine.even.transpose() * ring.cwiseProduct(r1));
     }
 
     /// (r f'/|x'|)'/(r |x'|) = [f'' + (r'/r - |x'|'/|x'|) f']/|x'|^2, with the limit 2 f''/|x'|^2 at a pole.
@@ -161,20 +157,22 @@ class SpectralSurfaceBuilder {
             second[i] = S(pole(i) ? 2 : 1) / v2;
             first[i] = pole(i) ? S(0) : S((r1_[i] / s_.nodes.r[i] - (r1_[i] * r2_[i] + z1_[i] * z2_[i]) / v2) / v2);
         }
-        s_.laplacian = sum(rows_scaled(second, basis_->even_second()), rows_scaled(first, basis_->even_first()));
-        radial_laplacian_ = sum(rows_scaled(second, basis_->odd_second()), rows_scaled(first, basis_->odd_first()));
+        s_.laplacian = second.asDiagonal() * basis_->even_second();
+        s_.laplacian += first.asDiagonal() * basis_->even_first();
+        radial_laplacian_ = second.asDiagonal() * basis_->odd_second();
+        radial_laplacian_ += first.asDiagonal() * basis_->odd_first();
     }
 
     /// Lap_s x = -2 H n, where the radial component of the vector x is Lap_s r - r/r^2 (its unit vector turns with the
     /// azimuth); 1/r^2 belongs to the frozen metric.
     void curvatures() {
         s_.mean_curvature_of.resize(n_, 2 * n_);
-        set_block(s_.mean_curvature_of, 0, 0, rows_scaled(Vector<S>(s_.normal_r / S(-2)), radial_laplacian_));
-        set_block(s_.mean_curvature_of, 0, n_, rows_scaled(Vector<S>(s_.normal_z / S(-2)), s_.laplacian));
+        s_.mean_curvature_of.leftCols(n_) = (s_.normal_r / S(-2)).asDiagonal() * radial_laplacian_;
+        s_.mean_curvature_of.rightCols(n_) = (s_.normal_z / S(-2)).asDiagonal() * s_.laplacian;
         for (Index i = 1; i + 1 < n_; ++i) {
             s_.mean_curvature_of(i, i) += s_.normal_r[i] / (2 * s_.nodes.r[i] * s_.nodes.r[i]);
         }
-        s_.mean_curvature = applied(s_.mean_curvature_of, s_.positions());
+        s_.mean_curvature = s_.mean_curvature_of * s_.positions();
         s_.gauss_curvature = s_.mean_curvature.cwiseAbs2();
         for (Index i = 1; i + 1 < n_; ++i) {
             const S azimuthal = s_.normal_r[i] / s_.nodes.r[i];
@@ -187,32 +185,30 @@ class SpectralSurfaceBuilder {
         const auto space = computed_once<TensionSpace<S>>(basis_->degree());
         const auto& here = space->surface_there;
         const Index count = here.size();
-        const Vector<S> r = applied(here.odd, s_.nodes.r);
-        const Vector<S> r1 = applied(here.odd_slope, s_.nodes.r);
-        const Vector<S> z1 = applied(here.even_slope, s_.nodes.z);
-        Vector<S> by_r(count);
-        Vector<S> by_z(count);
-        Vector<S> azimuthal(count);
-        for (Index k = 0; k < count; ++k) {
-            const S v2 = r1[k] * r1[k] + z1[k] * z1[k];
-            const bool at_pole = k == 0 || k == count - 1;
-            by_r[k] = S(at_pole ? 2 : 1) * r1[k] / v2;
-            by_z[k] = at_pole ? S(0) : S(z1[k] / v2);
-            azimuthal[k] = at_pole ? S(0) : S(S(1) / r[k]);
-        }
+        const Vector<S> r = here.odd * s_.nodes.r;
+        const Vector<S> r1 = here.odd_slope * s_.nodes.r;
+        const Vector<S> z1 = here.even_slope * s_.nodes.z;
+        const Vector<S> v2 = r1.cwiseAbs2() + z1.cwiseAbs2();
         s_.divergence.resize(count, 2 * n_);
-        set_block(s_.divergence, 0, 0, sum(rows_scaled(by_r, here.odd_slope), rows_scaled(azimuthal, here.odd)));
-        set_block(s_.divergence, 0, n_, rows_scaled(by_z, here.even_slope));
+        s_.divergence.leftCols(n_) = r1.cwiseQuotient(v2).asDiagonal() * here.odd_slope;
+        s_.divergence.rightCols(n_) = z1.cwiseQuotient(v2).asDiagonal() * here.even_slope;
+        for (Index k = 0; k < count; ++k) {
+            if (k == 0 || k == count - 1) {
+                s_.divergence.row(k).head(n_) *= S(2);
+                s_.divergence.row(k).tail(n_).setZero();
+            } else {
+                s_.divergence.row(k).head(n_) += here.odd.row(k) / r[k];
+            }
+        }
 
         const auto& at_nodes = space->tension_here;
         s_.tension_at_nodes = at_nodes.even;
         const Vector<S> speed2 = s_.speed.cwiseAbs2();
         const Vector<S> pull = -2 * s_.mean_curvature;
-        Matrix<S> gradient(2 * n_, count);
-        set_block(gradient, 0, 0, rows_scaled(Vector<S>(r1_.cwiseQuotient(speed2)), at_nodes.even_slope));
-        set_block(gradient, n_, 0, rows_scaled(Vector<S>(z1_.cwiseQuotient(speed2)), at_nodes.even_slope));
-        s_.tension_force = sum(s_.along_normal(rows_scaled(pull, at_nodes.even)), gradient);
-        s_.element_area = applied_transposed(at_nodes.even, s_.weight);
+        s_.tension_force = s_.along_normal(pull.asDiagonal() * at_nodes.even);
+        s_.tension_force.topRows(n_) += r1_.cwiseQuotient(speed2).asDiagonal() * at_nodes.even_slope;
+        s_.tension_force.bottomRows(n_) += z1_.cwiseQuotient(speed2).asDiagonal() * at_nodes.even_slope;
+        s_.element_area = at_nodes.even.transpose() * s_.weight;
     }
 
     std::shared_ptr<const TrigonometricBasis<S>> basis_;

@@ -35,8 +35,8 @@ struct SeriesTransfer {
             }
         }
         amplitudes = basis->even_coefficients().topRows(modes);
-        even = product(cosines, amplitudes);
-        odd = product(sines, Matrix<S>(basis->odd_coefficients().topRows(modes)));
+        even = cosines * amplitudes;
+        odd = sines * basis->odd_coefficients().topRows(modes);
     }
 
     static std::shared_ptr<const SeriesTransfer> between(Index from, Index to) {
@@ -47,7 +47,7 @@ struct SeriesTransfer {
 template <class S>
 Meridian<S> resampled(const Meridian<S>& shape, Index elements) {
     const auto there = SeriesTransfer<S>::between(shape.elements(), elements);
-    return {applied(there->odd, shape.r), applied(there->even, shape.z)};
+    return {there->odd * shape.r, there->even * shape.z};
 }
 
 }  // namespace axistokes::detail

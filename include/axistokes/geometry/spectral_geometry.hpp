@@ -39,18 +39,18 @@ struct SpectralCurve {
     SpectralCurve(const Meridian<S>& m, const TrigonometricBasis<S>& basis)
         : r(m.r),
           z(m.z),
-          r1(detail::applied(basis.odd_first(), m.r)),
-          z1(detail::applied(basis.even_first(), m.z)),
-          r2(detail::applied(basis.odd_second(), m.r)),
-          z2(detail::applied(basis.even_second(), m.z)),
+          r1(basis.odd_first() * m.r),
+          z1(basis.even_first() * m.z),
+          r2(basis.odd_second() * m.r),
+          z2(basis.even_second() * m.z),
           speed((r1.cwiseAbs2() + z1.cwiseAbs2()).cwiseSqrt()) {}
     SpectralCurve(const Meridian<S>& m, const typename TrigonometricBasis<S>::Sampling& at)
-        : r(detail::applied(at.odd, m.r)),
-          z(detail::applied(at.even, m.z)),
-          r1(detail::applied(at.odd_slope, m.r)),
-          z1(detail::applied(at.even_slope, m.z)),
-          r2(detail::applied(at.odd_second, m.r)),
-          z2(detail::applied(at.even_second, m.z)),
+        : r(at.odd * m.r),
+          z(at.even * m.z),
+          r1(at.odd_slope * m.r),
+          z1(at.even_slope * m.z),
+          r2(at.odd_second * m.r),
+          z2(at.even_second * m.z),
           speed((r1.cwiseAbs2() + z1.cwiseAbs2()).cwiseSqrt()) {}
 
     /// Positive where the surface is convex.
@@ -100,8 +100,8 @@ class SpectralGeometry {
     /// Largest distance from the axis.
     S max_radius(const Meridian<S>& shape) const {
         const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
-        const Vector<S> b = detail::applied(basis->odd_coefficients(), shape.r);
-        const Vector<S> slope = detail::applied(basis->odd_first(), shape.r);
+        const Vector<S> b = basis->odd_coefficients() * shape.r;
+        const Vector<S> slope = basis->odd_first() * shape.r;
         S largest = 0;
         for (Index e = 0; e < shape.elements(); ++e) {
             if (slope[e] < S(0) || slope[e + 1] > S(0)) {
@@ -136,12 +136,9 @@ class SpectralGeometry {
     S unresolved(const Meridian<S>& shape) const {
         using std::sqrt;
         const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
-        const Vector<S> a = detail::applied(basis->even_coefficients(), shape.z);
-        const Vector<S> b = detail::applied(basis->odd_coefficients(), shape.r);
-        Vector<S> power(shape.nodes());
-        for (Index k = 0; k < power.size(); ++k) {
-            power[k] = S(k) * S(k) * (a[k] * a[k] + b[k] * b[k]);
-        }
+        const Vector<S> k = Vector<S>::LinSpaced(shape.nodes(), S(0), S(shape.elements()));
+        const Vector<S> power = k.cwiseProduct(basis->odd_coefficients() * shape.r).cwiseAbs2() +
+                                k.cwiseProduct(basis->even_coefficients() * shape.z).cwiseAbs2();
         return sqrt(power.tail(shape.nodes() / 4).sum() / power.sum());
     }
 
@@ -214,9 +211,9 @@ class SpectralGeometry {
     Meridian<S> redistributed(const Meridian<S>& shape, Index elements) const {
         detail::require_elements(elements);
         const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
-        const Vector<S> density = detail::applied(basis->even_coefficients(), node_density(shape));
-        const Vector<S> a = detail::applied(basis->even_coefficients(), shape.z);
-        const Vector<S> b = detail::applied(basis->odd_coefficients(), shape.r);
+        const Vector<S> density = basis->even_coefficients() * node_density(shape);
+        const Vector<S> a = basis->even_coefficients() * shape.z;
+        const Vector<S> b = basis->odd_coefficients() * shape.r;
         // The new parameter is the integral of the density, tau(t) = t + sum_k g_k/(k g_0) sin kt.
         Vector<S> series = density / density[0];
         for (Index k = 1; k < series.size(); ++k) {
@@ -272,14 +269,11 @@ class SpectralGeometry {
         const Vector<S> v2 = curve.speed.cwiseAbs2();
         const Vector<S> first =
             (curve.r1.cwiseProduct(curve.r2) + curve.z1.cwiseProduct(curve.z2)).cwiseQuotient(v2.cwiseAbs2());
-        const S width2 = width * width;
-        Matrix<S> system =
-            detail::sum(detail::rows_scaled(Vector<S>(-width2 * v2.cwiseInverse()), basis->even_second()),
-                        detail::rows_scaled(Vector<S>(width2 * first), basis->even_first()));
+        Matrix<S> system = (-width * width) * (v2.cwiseInverse().asDiagonal() * basis->even_second());
+        system += (width * width) * (first.asDiagonal() * basis->even_first());
         system.diagonal().array() += S(1);
         const Eigen::PartialPivLU<Matrix<S>> lu(system);
-        density = Vector<S>(lu.solve(density));
-        density = Vector<S>(lu.solve(density));
+        density = lu.solve(lu.solve(density));
         return density.cwiseProduct(curve.speed);
     }
 

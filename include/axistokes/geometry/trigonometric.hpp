@@ -6,7 +6,6 @@
 // t times a polynomial of degree N - 2: interpolation is barycentric, differentiation exact.
 #pragma once
 
-#include "../operators.hpp"
 #include "../quadrature/computed_once.hpp"
 #include "../quadrature/gauss_legendre.hpp"
 
@@ -160,25 +159,15 @@ class TrigonometricBasis {
                 s(i, k) = sin(S(k) * t[i]);
             }
         }
-        // Of the derivatives of cos kt and sin kt: k, -k and -k^2.
-        Vector<S> first(n);
-        Vector<S> minus_first(n);
-        Vector<S> second(n);
-        for (Index k = 0; k < n; ++k) {
-            first[k] = S(k);
-            minus_first[k] = -S(k);
-            second[k] = -S(k) * S(k);
-        }
-        using detail::product;
-        using detail::rows_scaled;
+        const Vector<S> k = Vector<S>::LinSpaced(n, S(0), S(degree_));
         Sampling result;
         result.t = t;
-        result.even = product(c, even_coefficients_);
-        result.odd = product(s, odd_coefficients_);
-        result.even_slope = product(s, rows_scaled(minus_first, even_coefficients_));
-        result.odd_slope = product(c, rows_scaled(first, odd_coefficients_));
-        result.even_second = product(c, rows_scaled(second, even_coefficients_));
-        result.odd_second = product(s, rows_scaled(second, odd_coefficients_));
+        result.even = c * even_coefficients_;
+        result.odd = s * odd_coefficients_;
+        result.even_slope = -(s * k.asDiagonal()) * even_coefficients_;
+        result.odd_slope = (c * k.asDiagonal()) * odd_coefficients_;
+        result.even_second = -(c * k.cwiseAbs2().asDiagonal()) * even_coefficients_;
+        result.odd_second = -(s * k.cwiseAbs2().asDiagonal()) * odd_coefficients_;
         return result;
     }
 

@@ -51,8 +51,8 @@ class SeriesBasis {
           order_(order),
           basis_(TrigonometricBasis<S>::of_degree(degree_)),
           panels_(computed_once<SeriesPanels<S>>(degree_, order)),
-          r_series_(applied(basis_->odd_coefficients(), m.r)),
-          z_series_(applied(basis_->even_coefficients(), m.z)),
+          r_series_(basis_->odd_coefficients() * m.r),
+          z_series_(basis_->even_coefficients() * m.z),
           nodal_(m.nodes(), 4),
           last_slope_(-S(degree_) * z_series_[degree_]),
           sines_(m.nodes()) {
@@ -61,8 +61,8 @@ class SeriesBasis {
         }
         nodal_.col(0) = m.z;
         nodal_.col(1) = m.r.cwiseProduct(sines_);
-        nodal_.col(2) = applied(basis_->odd_first(), m.r);
-        nodal_.col(3) = applied(basis_->even_first(), m.z).cwiseProduct(sines_);
+        nodal_.col(2) = basis_->odd_first() * m.r;
+        nodal_.col(3) = (basis_->even_first() * m.z).cwiseProduct(sines_);
         const LayerPoints<S> points = fixed(false);
         largest_speed_ = Vector<S>::Zero(panels_->count);
         for (std::size_t q = 0; q < points.t.size(); ++q) {
