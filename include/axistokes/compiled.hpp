@@ -54,6 +54,8 @@ AXISTOKES_TUBE void detail::TubeAssembly<double>::add_to(Matrix<double>&,
 AXISTOKES_ALGEBRA void DenseLU<double>::factorize(const Matrix<double>&);
 AXISTOKES_ALGEBRA Vector<double> DenseLU<double>::solve(const Vector<double>&) const;
 
+// Parameters are names of templates, which bear no parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define AXISTOKES_LAYERS(where, basis, kernel)                                                     \
     where Matrix<double> detail::single_layer(const detail::basis<double>&, const kernel<double>&, \
                                               const Meridian<double>&, bool);                      \
@@ -81,6 +83,7 @@ AXISTOKES_MOTION(AXISTOKES_ELEMENTS, LinearSurface, RigidBody)
 AXISTOKES_MOTION(AXISTOKES_SERIES, SpectralSurface, Vesicle)
 AXISTOKES_MOTION(AXISTOKES_SERIES, SpectralSurface, RigidBody)
 #undef AXISTOKES_MOTION
+// NOLINTEND(bugprone-macro-parentheses)
 
 AXISTOKES_ELEMENTS std::pair<double, Vector<double>> detail::relative_normal_velocity(const LinearSurface<double>&,
                                                                                       const Vector<double>&,

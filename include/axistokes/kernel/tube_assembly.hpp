@@ -250,7 +250,7 @@ class TubeAssembly {
     static Matrix<S> shifted(const Matrix<S>& rows, const std::vector<C>& phase) {
         Matrix<S> result(rows.rows(), rows.cols());
         for (std::size_t k = 0; k < phase.size(); ++k) {
-            for (Index m = static_cast<Index>(4 * k); m < static_cast<Index>(4 * k + 2); ++m) {
+            for (auto m = static_cast<Index>(4 * k); m < static_cast<Index>(4 * k + 2); ++m) {
                 for (Index i = 0; i < rows.rows(); ++i) {
                     result(i, m) = phase[k].real() * rows(i, m) - phase[k].imag() * rows(i, m + 2);
                     result(i, m + 2) = phase[k].real() * rows(i, m + 2) + phase[k].imag() * rows(i, m);

@@ -6,7 +6,7 @@
 
 // Boost 1.74's pchip calls isnan without a namespace: in this order.
 // clang-format off
-#include <math.h>
+#include <math.h>  // NOLINT(modernize-deprecated-headers)
 #include <boost/math/interpolators/pchip.hpp>
 // clang-format on
 
