@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
     unbounded.excludes("--confinement");
     app.number("--elements", c.run.elements,
                "elements, or modes, on each meridian (default: as many as the accuracy takes)");
-    app.number("--time", time, "how long to follow the bodies (default: vesicles 1, spheres 0)");
+    app.number("--time", time, "how long to follow the bodies (default: vesicles 1, unless --stationary is given; spheres 0)");
     app.number("--step-tolerance", c.run.step_tolerance, "error allowed in a time step, in R0");
     app.number("--max-steps", c.run.steps, "stop after this many steps");
     app.number("--frames", c.frames, "shapes kept in frames.csv, equally spaced in time");
@@ -46,14 +46,15 @@ int main(int argc, char** argv) {
             require(!c.spheres || !app.given(shape), shape, "given", "absent with --kind sphere");
         }
         c.run.method.check();
-        require(!c.run.method.newton(), "--stationary", c.run.method.stationary,
-                "march or auto: bodies in line are followed in time");
+        const bool stationary = app.given("--stationary");
+        require(!stationary || !c.spheres, "--stationary", "given", "absent with --kind sphere");
+        require(!stationary || !time, "--stationary", "given", "absent with --time");
         if (time) {
             require(*time >= 0 && std::isfinite(*time), "--time", *time, ">= 0 and finite");
         }
         const double duration = time.value_or(c.spheres ? 0.0 : 1.0);
         require(c.spheres || duration > 0, "--time", duration, "> 0 for vesicles");
-        if (duration > 0) {
+        if (duration > 0 && !stationary) {
             c.run.time = duration;
         }
         if (tube.confinement) {
@@ -90,7 +91,9 @@ int main(int argc, char** argv) {
         } else if (unbounded.given()) {
             c.parameters["unbounded_capillary_number"] = unbounded_capillary_number;
         }
-        c.parameters["time"] = duration;
+        if (!stationary) {
+            c.parameters["time"] = duration;
+        }
         return examples::run_line(c);
     });
 }

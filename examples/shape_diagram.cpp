@@ -93,14 +93,14 @@ class Diagram {
         parachutes_.erase(column);  // one attempt: further away there is less hope
         for (const Found& f : found) {
             if (is_parachute(f) && f.growth < 0) {
-                parachutes_.insert_or_assign(column, std::pair(wanted, f.state.configuration.shape));
+                parachutes_.insert_or_assign(column, std::pair(wanted, f.state.configuration().shape));
             }
         }
         return {std::move(found), std::move(failure)};
     }
 
     static bool is_parachute(const Found& f) {
-        return discretization.pole_curvatures(f.state.configuration.shape).first <= 0;
+        return discretization.pole_curvatures(f.state.configuration().shape).first <= 0;
     }
 
   private:
@@ -109,7 +109,7 @@ class Diagram {
 
     static bool differ(const Newton::State& a, const Newton::State& b) {
         const auto length = [](const Newton::State& s) {
-            const Meridian<double>& shape = s.configuration.shape;
+            const Meridian<double>& shape = s.configuration().shape;
             return shape.z[shape.elements()] - shape.z[0];
         };
         return std::abs(length(a) - length(b)) > 1e-3;
@@ -146,10 +146,10 @@ class Diagram {
             found = continued(oblate_->second, oblate_->first, wanted);
         } else {
             const auto state = solver(fitting).solve(start(SpheroidKind::oblate, fitting), area(wanted), volume());
-            found = continued(state.configuration.shape, fitting, wanted);
+            found = continued(state.configuration().shape, fitting, wanted);
         }
         if (found) {
-            oblate_.emplace(wanted, found->state.configuration.shape);
+            oblate_.emplace(wanted, found->state.configuration().shape);
         }
         return found;
     }
@@ -186,7 +186,7 @@ class Diagram {
         bool folded = false;
         const bool arrived = path.follow(branch.at(0, shape), 1, [&](const Continuation<Branch>::Record& record) {
             folded = record.event == BranchEvent::fold;
-            last = record.point.state.configuration.shape;
+            last = record.point.state.configuration().shape;
             return !folded;
         });
         if (!arrived || folded) {
@@ -200,7 +200,7 @@ class Diagram {
         Found found;
         Newton newton = solver(wanted);
         for (;;) {
-            const Meridian<double> shape = state.configuration.shape;
+            const Meridian<double> shape = state.configuration().shape;
             found.unresolved = discretization.unresolved(shape);
             const Index elements = shape.elements() + shape.elements() / 2;
             if (found.unresolved <= settings_.unresolved || elements > settings_.most_elements) {
@@ -232,12 +232,12 @@ std::string rows(const Case& c, const std::vector<Found>& found, const std::stri
         out << examples::key(c) << ",0,,,,,,,,,,,,,,,," << cause << '\n';
     }
     for (const Found& f : found) {
-        const Meridian<double>& shape = f.state.configuration.shape;
+        const Meridian<double>& shape = f.state.configuration().shape;
         const auto [rear, front] = discretization.pole_curvatures(shape);
         out << examples::key(c) << ',' << found.size() << ',' << f.start << ',' << (rear > 0 ? "bullet" : "parachute")
-            << ',' << (f.growth < 0) << ',' << f.growth << ',' << f.state.instant.velocity << ','
+            << ',' << (f.growth < 0) << ',' << f.growth << ',' << f.state.instant().velocity << ','
             << shape.z[shape.elements()] - shape.z[0] << ',' << rear << ',' << front << ','
-            << 1 / c.confinement - discretization.max_radius(shape) << ',' << f.state.instant.pressure_drop << ','
+            << 1 / c.confinement - discretization.max_radius(shape) << ',' << f.state.instant().pressure_drop << ','
             << f.state.residual << ',' << f.unresolved << ',' << shape.elements() << ',' << f.state.evaluations << ','
             << f.seconds << ',' << cause << '\n';
     }
@@ -249,7 +249,7 @@ void write_shapes(const std::filesystem::path& directory, const Case& c, const s
         std::ostringstream name;
         name << "shape_" << c.confinement << '_' << c.reduced_volume << '_' << c.capillary_number << '_' << f.start
              << ".csv";
-        const Meridian<double>& shape = f.state.configuration.shape;
+        const Meridian<double>& shape = f.state.configuration().shape;
         write_atomically(directory / name.str(), [&](std::ostream& out) {
             out << "r,z\n";
             for (Index i = 0; i < shape.nodes(); ++i) {

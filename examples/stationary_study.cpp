@@ -75,9 +75,9 @@ void compare(examples::Report& table, const std::string& name, const examples::D
     const double by_differences = newton.growth_rates(state, 1e-5).front().real();
     table.row(name, start.elements(), march.history().size(), march_seconds, state.evaluations, state.jacobians,
               state.coarse_evaluations, state.coarse_jacobians, state.mobility_changes, newton_seconds,
-              march_seconds / newton_seconds, last.residual, state.residual, state.instant.velocity,
-              std::abs(state.instant.velocity / last.velocity - 1),
-              std::abs(length(state.configuration.shape) - last.length), growth, growth_seconds, by_differences);
+              march_seconds / newton_seconds, last.residual, state.residual, state.instant().velocity,
+              std::abs(state.instant().velocity / last.velocity - 1),
+              std::abs(length(state.configuration().shape) - last.length), growth, growth_seconds, by_differences);
 }
 
 /// The velocity at equal accuracy: spectral Newton against P1 elements, marched and by Newton's method.
@@ -86,11 +86,11 @@ void equal_accuracy(examples::Report& table, const examples::Drive& drive) {
     examples::Newton newton(scene_of(series, drive), newton_params());
     const double area = 4 * detail::pi_value<double>() + 0.6;
     const double volume = 4 * detail::pi_value<double>() / 3;
-    const double exact = newton.solve(start(64), area, volume).instant.velocity;
+    const double exact = newton.solve(start(64), area, volume).instant().velocity;
     for (const Index n : {12, 16, 24, 32, 48}) {
         const Stopwatch watch;
         const auto state = newton.solve(start(n), area, volume);
-        table.row("spectral Newton", n, std::abs(state.instant.velocity / exact - 1), watch.seconds());
+        table.row("spectral Newton", n, std::abs(state.instant().velocity / exact - 1), watch.seconds());
     }
     for (const Index n : {64, 128, 260}) {
         const Stopwatch watch;
@@ -102,7 +102,7 @@ void equal_accuracy(examples::Report& table, const examples::Drive& drive) {
     for (const Index n : {64, 128, 260}) {
         const Stopwatch watch;
         const auto state = linear.solve(start(n), area, volume);
-        table.row("P1 Newton", n, std::abs(state.instant.velocity / exact - 1), watch.seconds());
+        table.row("P1 Newton", n, std::abs(state.instant().velocity / exact - 1), watch.seconds());
     }
 }
 

@@ -111,15 +111,15 @@ void agreement(const Options& options, const examples::Newton::State& exact) {
         const WallMeshParams<double> params = wall_of(tolerance);
         Scene scene = by_wall(options, fine_elements(), params);
         // From the other method's shape, so that the nodes are the same: where they are matters by O(h^2).
-        const auto state = stationary(scene, exact.configuration.shape, options, false);
-        scene.evaluate(state.configuration, 0);
+        const auto state = stationary(scene, exact.configuration().shape, options, false);
+        scene.evaluate(state.configuration(), 0);
         const auto& mesh = *scene.wall().mesh()->mesh();
-        table.row(tolerance, mesh.wall_panels(), mesh.curve().size(), state.instant.velocity,
-                  state.instant.velocity / exact.instant.velocity - 1,
-                  state.instant.pressure_drop / exact.instant.pressure_drop - 1,
-                  std::max(distance(state.configuration.shape, exact.configuration.shape),
-                           distance(exact.configuration.shape, state.configuration.shape)),
-                  exact.instant.velocity);
+        table.row(tolerance, mesh.wall_panels(), mesh.curve().size(), state.instant().velocity,
+                  state.instant().velocity / exact.instant().velocity - 1,
+                  state.instant().pressure_drop / exact.instant().pressure_drop - 1,
+                  std::max(distance(state.configuration().shape, exact.configuration().shape),
+                           distance(exact.configuration().shape, state.configuration().shape)),
+                  exact.instant().velocity);
     }
 }
 
@@ -129,7 +129,7 @@ void cost(const Options& options, const examples::Newton::State& state) {
                            "accuracy,mesh,grading,length_beyond_vesicle,nodes_per_panel,wall_panels,wall_nodes,"
                            "force_error,velocity_error,kernel_tolerance,kernel_force_error,tube_ms,wall_ms,"
                            "tube_over_wall");
-    const auto& configuration = state.configuration;
+    const auto& configuration = state.configuration();
     const AnyDiscretization fine = fine_elements();
     const auto exact = by_tube(options, fine, 1e-10).evaluate(configuration, 0);
     const auto force_error = [&](const auto& instant) {
@@ -195,18 +195,18 @@ void cost(const Options& options, const examples::Newton::State& state) {
 /// Up- and downstream of a stationary vesicle.
 void decay(const Options& options, const examples::Newton::State& state) {
     const double step = examples::DecayReport::step;
-    const double reach = std::max(state.configuration.shape.z.maxCoeff(), -state.configuration.shape.z.minCoeff());
+    const double reach = std::max(state.configuration().shape.z.maxCoeff(), -state.configuration().shape.z.minCoeff());
     const double nearest = step * std::ceil(1.1 * reach / options.radius() / step);
     const double farthest = std::max(4.5, nearest + 2);
     WallMeshParams<double> params = wall_of(1e-12);
     params.length = (farthest + 1.0) * options.radius();
     const AnyDiscretization elements = elements_with(1e-13);
     Scene scene = by_wall(options, elements, params);
-    const auto instant = scene.evaluate(state.configuration, 0);
+    const auto instant = scene.evaluate(state.configuration(), 0);
     // The uniform pressure in the force moves nothing: without it, neither does its discretisation error.
     const auto force = detail::without_flux<double>(instant.surface, instant.solution.force);
     examples::AnyWall tube = scene.wall();
-    const auto field = tube.field(elements, scene.kernel(), state.configuration.shape, force);
+    const auto field = tube.field(elements, scene.kernel(), state.configuration().shape, force);
     examples::DecayReport report(options.directory);
     const auto velocity = [&](const Meridian<double>& points) { return field.velocity(points); };
     report.add("vesicle", options.radius(), options.capillary_number, nearest, farthest, 1, velocity);

@@ -100,11 +100,11 @@ void check_approach(double gap, double exact, std::optional<Index> elements, dou
         },
         params);
     const auto& result = driver.run();
-    const auto& instant = *result.instant;
+    const auto& instant = *result.instant();
     const double force =
         instant.surface.weight.dot(instant.solution.force.tail(instant.surface.size())) / (6 * std::acos(-1.0));
     const double error = std::abs(force / exact - 1);
-    INFO("gap " << gap << ", elements " << result.configuration.shape.elements() << ", force " << force << ", error "
+    INFO("gap " << gap << ", elements " << result.configuration().shape.elements() << ", force " << force << ", error "
                 << error << ", estimate " << result.error_estimate);
     CHECK(error <= result.error_estimate);
     if (!elements) {
@@ -131,7 +131,7 @@ TEST_CASE("A stationary state by itself: as many modes as the accuracy takes, an
     CHECK(result.residual.value() < 1e-9);
     CHECK(std::abs(*result.velocity / kVelocity - 1) < result.error_estimate);
     // Near the shape that was marched to.
-    CHECK(stationary::distance(result.configuration.shape, driver.simulator().configuration().shape) < 0.05);
+    CHECK(stationary::distance(result.configuration().shape, driver.simulator().configuration().shape) < 0.05);
 }
 
 TEST_CASE("P1 elements are held against half of them") {
@@ -193,7 +193,7 @@ TEST_CASE("A shape that its modes cannot carry gets more of them") {
     const auto& result = driver.run();
     CHECK(result.stationary);
     CHECK(result.error_met());
-    CHECK(result.configuration.shape.elements() > 16);
+    CHECK(result.configuration().shape.elements() > 16);
 }
 
 TEST_CASE("Spheres that nearly touch: the error is within its estimate, whatever the number of elements") {

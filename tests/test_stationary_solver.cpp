@@ -58,10 +58,10 @@ void agrees_with_marching(const Flow& background, SpheroidKind kind, double exce
     CHECK(state.residual < 1e-9);
     CHECK(state.evaluations < static_cast<Index>(reference.history().size()));
     const Meridian<double>& expected = reference.configuration().shape;
-    const Meridian<double>& found = state.configuration.shape;
+    const Meridian<double>& found = state.configuration().shape;
     CHECK((found.r - expected.r).cwiseAbs().maxCoeff() < 1e-6);
     CHECK((found.z - expected.z).cwiseAbs().maxCoeff() < 1e-6);
-    CHECK(state.instant.velocity == Approx(reference.history().back().velocity).epsilon(1e-6).margin(1e-6));
+    CHECK(state.instant().velocity == Approx(reference.history().back().velocity).epsilon(1e-6).margin(1e-6));
     const auto measures = solver.scene().discretization().measures(found);
     CHECK(measures.area == Approx(start.initial_area()).epsilon(1e-10));
     CHECK(measures.volume == Approx(start.initial_volume()).epsilon(1e-10));
@@ -99,7 +99,9 @@ TEST_CASE("To round-off: on below the tolerance, by a few evaluations more") {
     CHECK(near.residual < 1e-5);
     CHECK(exact.residual < 1e-9);
     CHECK(exact.evaluations > near.evaluations);
-    CHECK(exact.evaluations < near.evaluations + 8);
+    // A factor of 5 or more each, but for the last one.
+    const double factors = std::log(near.residual / exact.residual) / std::log(5.0);
+    CHECK(static_cast<double>(exact.evaluations - near.evaluations) <= factors + 1);
     CHECK(exact.coarse_evaluations == near.coarse_evaluations);
 }
 
@@ -125,7 +127,7 @@ TEST_CASE("The leading growth rate is the decay rate of a small disturbance") {
     const double rate = solver.growth_rates(state).front().real();
     REQUIRE(rate < 0);
 
-    Meridian<double> disturbed = state.configuration.shape;
+    Meridian<double> disturbed = state.configuration().shape;
     disturbed.z.array() += 1e-3 * disturbed.z.array().square();
     SimulationParams<double> params;
     params.time_step = 0.02 / -rate;

@@ -38,9 +38,9 @@ void agrees_with_marching(const Flow& f, Index elements, Index most_evaluations)
     const auto state = newton.solve(start, march.initial_area(), march.initial_volume());
     CHECK(state.residual < 1e-9);
     CHECK(state.evaluations <= most_evaluations);
-    CHECK(state.instant.velocity == Approx(march.history().back().velocity).epsilon(1e-6));
-    CHECK(stationary::distance(state.configuration.shape, march.configuration().shape) < 1e-6);
-    const auto measures = newton.scene().discretization().measures(state.configuration.shape);
+    CHECK(state.instant().velocity == Approx(march.history().back().velocity).epsilon(1e-6));
+    CHECK(stationary::distance(state.configuration().shape, march.configuration().shape) < 1e-6);
+    const auto measures = newton.scene().discretization().measures(state.configuration().shape);
     CHECK(measures.area == Approx(march.initial_area()).epsilon(1e-10));
     CHECK(measures.volume == Approx(march.initial_volume()).epsilon(1e-10));
 

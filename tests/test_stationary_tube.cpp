@@ -60,9 +60,9 @@ void agrees_with_marching(double excess_area, double confinement, double capilla
                      march.initial_area(), march.initial_volume());
     CHECK(state.residual < 1e-9);
     CHECK(10 * state.evaluations < static_cast<Index>(march.history().size()));
-    CHECK(state.instant.velocity == Approx(march.history().back().velocity).epsilon(1e-6));
-    CHECK(state.instant.pressure_drop == Approx(march.history().back().pressure_drop).epsilon(1e-5));
-    CHECK(stationary::distance(state.configuration.shape, march.configuration().shape) < 1e-6);
+    CHECK(state.instant().velocity == Approx(march.history().back().velocity).epsilon(1e-6));
+    CHECK(state.instant().pressure_drop == Approx(march.history().back().pressure_drop).epsilon(1e-5));
+    CHECK(stationary::distance(state.configuration().shape, march.configuration().shape) < 1e-6);
     CHECK(newton.growth_rates(state).front().real() < 0);
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("Spectral Newton in a thin film, from the first shape, and its oscilla
     Solver newton(narrow);
     const auto state = newton.solve(shape_in_tube<double>(3.6, 0.62, SpheroidKind::prolate, 48), area, kVolume);
     CHECK(state.residual < 1e-9);
-    CHECK(narrow.film_thickness(state.configuration).min < 0.05);
+    CHECK(narrow.film_thickness(state.configuration()).min < 0.05);
     const auto rate = newton.growth_rates(state).front();
     const auto by_differences = newton.growth_rates(state, 1e-5).front();
     CHECK(std::abs(rate.imag()) > 1);
@@ -115,13 +115,13 @@ Traced trace(SpheroidKind kind, double last, bool print = false, Index elements 
     Path path(branch, params);
     Traced traced;
     int after = 0;
-    path.follow(branch.at(0, start.configuration.shape), 1, [&](const Path::Record& record) {
+    path.follow(branch.at(0, start.configuration().shape), 1, [&](const Path::Record& record) {
         const auto& state = record.point.state;
-        const double rear = record.point.scene->discretization().pole_curvatures(state.configuration.shape).first;
+        const double rear = record.point.scene->discretization().pole_curvatures(state.configuration().shape).first;
         if (print) {
             std::printf("%9.5f  %.7f  %9.5f  %8.5f  %8.4f  %.1e  %.1e%s\n", std::exp(record.parameter),
-                        state.instant.velocity / std::exp(record.parameter), record.growth, record.slope, rear,
-                        record.residual, record.point.scene->discretization().unresolved(state.configuration.shape),
+                        state.instant().velocity / std::exp(record.parameter), record.growth, record.slope, rear,
+                        record.residual, record.point.scene->discretization().unresolved(state.configuration().shape),
                         record.event == BranchEvent::fold ? "  fold" : "");
         }
         traced.largest_residual = std::max(traced.largest_residual, record.residual);
@@ -138,8 +138,8 @@ Traced trace(SpheroidKind kind, double last, bool print = false, Index elements 
             ++after;
         }
         traced.parameter = record.parameter;
-        traced.velocity = state.instant.velocity;
-        traced.shape = state.configuration.shape;
+        traced.velocity = state.instant().velocity;
+        traced.shape = state.configuration().shape;
         traced.rear_curvature = rear;
         return after < 3;
     });
@@ -190,7 +190,7 @@ TEST_CASE("The parachute ends in a fold") {
         Solver newton(scene(kConfinement, std::exp(traced.parameter)), params);
         auto state = newton.solve(traced.shape, kArea, kVolume);
         const double growth = newton.growth_rates(state).front().real();
-        return std::pair(state.instant.velocity, growth);
+        return std::pair(state.instant().velocity, growth);
     };
     const auto [unstable_velocity, unstable_growth] = found(false);
     CHECK(unstable_velocity == Approx(traced.velocity).epsilon(1e-7));

@@ -175,8 +175,8 @@ TEST_CASE("a gap has one width, that of the curves, and nodes enough or not", "[
             const State state{{lower, 0, {}}, {upper, 2 + gap, {}}};
             const auto here = scene.gap_above(state, 0);
             CHECK(here.width == Approx(gap).epsilon(1e-9));
-            CHECK(scene.film_thickness(state, 0).to_neighbour == here.width);
-            CHECK(scene.film_thickness(state, 1).to_neighbour == here.width);
+            CHECK(scene.films(state).bodies[0].to_neighbour == here.width);
+            CHECK(scene.films(state).bodies[1].to_neighbour == here.width);
             // h'' = 2, and N elements along the length pi.
             CHECK(here.slenderness == Approx(std::sqrt(gap)).epsilon(0.01));
             const double nodes = std::sqrt(gap) * static_cast<double>(lower.elements());

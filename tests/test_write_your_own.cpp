@@ -189,7 +189,7 @@ TEST_CASE("your law: a drop in an extension, by marching and by Newton's method"
         StationarySolver newton(march.scene());
         const auto state = newton.solve(Spheroid{1, 1}.meridian(16), march.initial_area(), march.initial_volume());
         growth += newton.growth_rates(state).front().real();
-        const double found = deformation(state.configuration.shape, spectral);
+        const double found = deformation(state.configuration().shape, spectral);
         CHECK(found == Approx(deformation(march.configuration().shape, spectral)).epsilon(1e-6));
         // The area has grown, the volume has not.
         CHECK(march.history().back().area_drift > 0);

@@ -36,7 +36,7 @@ int run_body(const BodyCase& c) {
     if (c.surroundings.tube_radius) {
         summary.update(tube_summary(driver.simulation(), ending, c.mean_velocity));
     }
-    const auto& instant = *ending.result.instant;
+    const auto& instant = *ending.result.instant();
     summary.update(
         c.details({instant.surface.nodes, instant.surface.weight, instant.solution.force, instant.velocity}));
     summary["parameters"] = c.parameters;

@@ -66,15 +66,16 @@ class LineRun {
                           visit(s, duration);
                           return !guard.interrupted();
                       });
-        std::string failure;
+        Ending ending;
         try {
             driver.run();
         } catch (const axistokes::SimulationFailure& error) {
-            failure = error.what();
+            ending.failure = error.what();
         }
         bar.hide();
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        return conclude(driver, failure, seconds);
+        ending.result = driver.result();
+        ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return conclude(driver.simulation(), ending);
     }
 
   private:
@@ -113,16 +114,15 @@ class LineRun {
         ++kept_;
     }
 
-    int conclude(Driver& driver, const std::string& failure, double seconds) {
-        Simulation& simulation = driver.simulation();
-        const auto& result = driver.result();
+    int conclude(const Simulation& simulation, const Ending& ending) const {
+        const auto& result = ending.result;
         nlohmann::ordered_json bodies = nlohmann::ordered_json::array();
+        const auto films = simulation.scene().films(result.bodies);
         double drop = 0;
-        bool known = true;
         for (std::size_t b = 0; b < simulation.bodies(); ++b) {
-            const auto& configuration = simulation.configuration(b);
+            const auto& configuration = result.configuration(b);
             const auto& shape = configuration.shape;
-            const auto film = simulation.scene().film_thickness(simulation.state(), b);
+            const auto& film = films.bodies[b];
             nlohmann::ordered_json body{{"position", configuration.position},
                                         {"length", shape.z[shape.nodes() - 1] - shape.z[0]},
                                         {"max_radius", discretization_.max_radius(shape)},
@@ -134,18 +134,16 @@ class LineRun {
             if (std::isfinite(film.to_neighbour)) {
                 body["neighbour_distance"] = film.to_neighbour;
             }
-            try {
-                const auto& instant = simulation.instant(b);
-                body["velocity"] = instant.velocity;
-                body["pressure_drop"] = instant.pressure_drop;
-                drop += instant.pressure_drop;
+            // None where the last shapes are what a failure is about.
+            if (const auto* instant = result.instant(b)) {
+                body["velocity"] = instant->velocity;
+                body["pressure_drop"] = instant->pressure_drop;
+                drop += instant->pressure_drop;
                 if (case_.dragged) {
                     const axistokes::Index n = shape.nodes();
-                    body["drag_factor"] = instant.surface.weight.dot(instant.solution.force.tail(n)) /
-                                          (6 * std::numbers::pi * instant.velocity);
+                    body["drag_factor"] = instant->surface.weight.dot(instant->solution.force.tail(n)) /
+                                          (6 * std::numbers::pi * instant->velocity);
                 }
-            } catch (const axistokes::SimulationFailure&) {
-                known = false;  // the last shapes are what the failure is about
             }
             bodies.push_back(std::move(body));
         }
@@ -154,46 +152,32 @@ class LineRun {
             {"stationary", result.stationary},
             {"time", simulation.time()},
             {"steps", simulation.history().size()},
-            {"wall_seconds", seconds},
-            {"error_estimate", std::isfinite(result.error_estimate) ? nlohmann::ordered_json(result.error_estimate)
-                                                                    : nlohmann::ordered_json(nullptr)},
-            {"error_met", result.error_met()},
-            {"accuracy", result.eps}};
-        if (case_.surroundings.tube_radius && known) {
+            {"wall_seconds", ending.wall_seconds}};
+        describe_ending(ending, summary);
+        if (case_.surroundings.tube_radius && !result.instants.empty()) {
             summary["tube_radius"] = *case_.surroundings.tube_radius;
             summary["pressure_drop"] = drop;
         }
         run_.method.describe(summary);
-        if (!failure.empty()) {
-            summary["failure"] = failure;
-        }
-        if (result.interrupted) {
-            summary["interrupted"] = true;
-        }
         summary["parameters"] = case_.parameters;
-        write(simulation, summary);
+        write(simulation, result, summary);
         print_bodies(summary);
-        if (!failure.empty()) {
-            throw axistokes::SimulationFailure(failure);
+        if (!ending.failure.empty()) {
+            throw axistokes::SimulationFailure(ending.failure);
         }
         return result.interrupted ? interrupted : success;
     }
 
-    void write(Simulation& simulation, const nlohmann::ordered_json& summary) {
+    void write(const Simulation& simulation, const Driver::Result& result,
+               const nlohmann::ordered_json& summary) const {
         if (run_.directory.empty()) {
             return;
         }
         const std::filesystem::path directory(run_.directory);
         for (std::size_t b = 0; b < simulation.bodies(); ++b) {
-            std::optional<Simulation::InstantType> instant;
-            try {
-                instant = simulation.instant(b);
-            } catch (const axistokes::SimulationFailure&) {
-                // Then the nodes alone.
-            }
             const std::string number = "_" + std::to_string(b);
             axistokes::write_csv(directory / ("shape" + number + ".csv"),
-                                 last_shape_columns(simulation.configuration(b), instant));
+                                 last_shape_columns(result.configuration(b), result.instant(b)));
             axistokes::write_csv(directory / ("history" + number + ".csv"),
                                  axistokes::history_columns(simulation.history(b)));
         }

@@ -13,6 +13,10 @@ Newton::State Newton::solve(const axistokes::Meridian<double>& shape, double are
     return solver_->solve(shape, area, volume);
 }
 
+Newton::State Newton::solve(const Scene::State& bodies, const std::vector<axistokes::Measures<double>>& measures) {
+    return solver_->solve(bodies, measures);
+}
+
 std::vector<std::complex<double>> Newton::growth_rates(const State& state) {
     return solver_->growth_rates(state);
 }

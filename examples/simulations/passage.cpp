@@ -240,7 +240,7 @@ class PassageRun {
             failure_ = failure_.empty() ? error.what() : failure_;
         }
         keep_frame(instant);
-        shape_ = last_shape_columns(now().configuration(), instant);
+        shape_ = last_shape_columns(now().configuration(), instant ? &*instant : nullptr);
     }
 
     /// Why a vesicle does not move on, or that its membrane is about to pinch off; empty if it does.

@@ -15,16 +15,45 @@
 namespace examples {
 
 std::vector<axistokes::Column<double>> last_shape_columns(const axistokes::Configuration<double>& configuration,
-                                                          const std::optional<Simulation::InstantType>& instant) {
+                                                          const Simulation::InstantType* instant) {
     if (instant) {
         return axistokes::shape_columns(configuration, *instant);
     }
     return {{"r", configuration.shape.r}, {"z", configuration.shape.z}};
 }
 
+void describe_ending(const Ending& ending, nlohmann::ordered_json& summary) {
+    const auto& result = ending.result;
+    summary["error_estimate"] = std::isfinite(result.error_estimate) ? nlohmann::ordered_json(result.error_estimate)
+                                                                     : nlohmann::ordered_json(nullptr);
+    summary["error_met"] = result.error_met();
+    summary["accuracy"] = result.eps;
+    if (!result.newton_failure.empty()) {
+        summary["newton_failure"] = result.newton_failure;
+    }
+    if (!result.refinement_failure.empty()) {
+        summary["refinement_failure"] = result.refinement_failure;
+    }
+    if (result.newton_iterations > 0) {
+        summary["newton_iterations"] = result.newton_iterations;
+        summary["newton_evaluations"] = result.newton_evaluations;
+    }
+    if (result.growth_rate) {
+        summary["stable"] = *result.growth_rate < 0;
+        summary["leading_growth_rate"] = *result.growth_rate;
+        summary["stability_elements"] = result.stability_elements;
+    }
+    if (!ending.failure.empty()) {
+        summary["failure"] = ending.failure;
+    }
+    if (result.interrupted) {
+        summary["interrupted"] = true;
+    }
+}
+
 nlohmann::ordered_json summarize(const Simulation& simulation, const Ending& ending) {
     const auto& result = ending.result;
-    const auto& configuration = result.configuration;
+    const auto& configuration = result.configuration();
     const auto& shape = configuration.shape;
     const auto& discretization = simulation.scene().discretization();
     const axistokes::Measures<double> measures = discretization.measures(shape);
@@ -54,54 +83,31 @@ nlohmann::ordered_json summarize(const Simulation& simulation, const Ending& end
     if (result.residual) {
         summary["residual"] = *result.residual;
     }
-    if (result.instant && result.instant->solution.tension.size() > 0) {
-        const auto tension = result.instant->surface.at_nodes(result.instant->solution.tension);
+    if (const auto* instant = result.instant(); instant && instant->solution.tension.size() > 0) {
+        const auto tension = instant->surface.at_nodes(instant->solution.tension);
         summary["tension_min"] = tension.minCoeff();
         summary["tension_max"] = tension.maxCoeff();
     }
-    summary["error_estimate"] = std::isfinite(result.error_estimate) ? nlohmann::ordered_json(result.error_estimate)
-                                                                     : nlohmann::ordered_json(nullptr);
-    summary["error_met"] = result.error_met();
-    summary["accuracy"] = result.eps;
-    if (!result.newton_failure.empty()) {
-        summary["newton_failure"] = result.newton_failure;
-    }
-    if (!result.refinement_failure.empty()) {
-        summary["refinement_failure"] = result.refinement_failure;
-    }
-    if (result.newton_iterations > 0) {
-        summary["newton_iterations"] = result.newton_iterations;
-        summary["newton_evaluations"] = result.newton_evaluations;
-    }
-    if (result.growth_rate) {
-        summary["stable"] = *result.growth_rate < 0;
-        summary["leading_growth_rate"] = *result.growth_rate;
-        summary["stability_elements"] = result.stability_elements;
-    }
-    if (!ending.failure.empty()) {
-        summary["failure"] = ending.failure;
-    }
-    if (result.interrupted) {
-        summary["interrupted"] = true;
-    }
+    describe_ending(ending, summary);
     return summary;
 }
 
 nlohmann::ordered_json tube_summary(const Simulation& simulation, const Ending& ending, double mean_velocity) {
     const auto& result = ending.result;
-    const auto& shape = result.configuration.shape;
-    const double radius = simulation.scene().gap({0, result.configuration.position});
+    const auto& shape = result.configuration().shape;
+    const double position = result.configuration().position;
+    const double radius = simulation.scene().gap({0, position});
     nlohmann::ordered_json summary{{"tube_radius", radius}, {"confinement", 1 / radius}};
-    const auto film = simulation.scene().film_thickness(result.configuration);
+    const auto film = simulation.scene().film_thickness(result.configuration());
     summary["film_thickness_min"] = film.min;
-    summary["film_thickness_min_z"] = film.where - result.configuration.position;
+    summary["film_thickness_min_z"] = film.where - position;
     summary["film_thickness_mean"] = film.mean;
     if (const auto& wall = simulation.scene().wall().mesh(); wall && wall->mesh()) {
         summary["wall_panels"] = wall->mesh()->wall_panels();
         summary["wall_nodes"] = wall->mesh()->curve().size();
     }
-    if (result.instant) {
-        const double drop = result.instant->pressure_drop;
+    if (const auto* instant = result.instant()) {
+        const double drop = instant->pressure_drop;
         summary["pressure_drop"] = drop;
         if (mean_velocity != 0) {
             const double volume = simulation.scene().discretization().measures(shape).volume;
@@ -148,8 +154,8 @@ void write_results(const Simulation& simulation, const Ending& ending, const Run
         return;
     }
     const std::filesystem::path directory(options.directory);
-    const auto& configuration = ending.result.configuration;
-    const auto& instant = ending.result.instant;
+    const auto& configuration = ending.result.configuration();
+    const auto* instant = ending.result.instant();
     const std::vector<axistokes::Column<double>> shape = last_shape_columns(configuration, instant);
     axistokes::write_csv(directory / "shape.csv", shape);
     axistokes::write_csv(directory / "history.csv", axistokes::history_columns(simulation.history()));

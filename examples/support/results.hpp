@@ -9,7 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +20,14 @@ struct Ending {
     double wall_seconds = 0;
 };
 
-/// The last shape as a table. Without an instant (the shape may be the cause of a failure) at least the nodes.
+/// The last shape as a table. Without an instant (null: the shape may be the cause of a failure) at least the nodes.
 std::vector<axistokes::Column<double>> last_shape_columns(const axistokes::Configuration<double>& configuration,
-                                                          const std::optional<Simulation::InstantType>& instant);
+                                                          const Simulation::InstantType* instant);
 
-/// Keys that every run has. The estimate is null where there is none: the JSON format has no infinity.
+/// Keys of how good a run's result is and how it ended. The estimate is null where there is none: the JSON format has no infinity.
+void describe_ending(const Ending& ending, nlohmann::ordered_json& summary);
+
+/// Keys that every run of one body has.
 nlohmann::ordered_json summarize(const Simulation& simulation, const Ending& ending);
 
 /// Of a particle in a tube (docs/gallery.md, "The summary of a scene in a tube"): the film (R0), the pressure drop that

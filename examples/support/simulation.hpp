@@ -59,6 +59,7 @@ class Newton {
     ~Newton();
 
     State solve(const axistokes::Meridian<double>& shape, double area, double volume);
+    State solve(const Scene::State& bodies, const std::vector<axistokes::Measures<double>>& measures);
     std::vector<std::complex<double>> growth_rates(const State& state);
     /// By differences of the full equations.
     std::vector<std::complex<double>> growth_rates(const State& state, double step);

@@ -66,6 +66,13 @@ struct Gap {
     S upper_nodes = std::numeric_limits<S>::infinity();
 };
 
+/// All of a state.
+template <class S>
+struct Films {
+    std::vector<FilmThickness<S>> bodies;
+    std::vector<Gap<S>> gaps;  // each body's to the next one
+};
+
 namespace detail {
 
 /// Velocity of the centroid, and normal velocities relative to it, of a velocity field given at the nodes of `surface`:
@@ -84,6 +91,22 @@ template <class S>
 Meridian<S> shifted(Meridian<S> shape, const S& along) {
     shape.z.array() += along;
     return shape;
+}
+
+/// Whether a body's chords meet those of the one that should lie above it.
+template <class S>
+bool meet(const Configuration<S>& below, const Configuration<S>& above) {
+    const Meridian<S> a = shifted(below.shape, below.position);
+    const Meridian<S> b = shifted(above.shape, above.position);
+    for (Index i = 0; i < a.elements(); ++i) {
+        for (Index j = 0; j < b.elements(); ++j) {
+            if (segments_cross(Point<S>{a.r[i], a.z[i]}, {a.r[i + 1], a.z[i + 1]}, {b.r[j], b.z[j]},
+                               {b.r[j + 1], b.z[j + 1]})) {
+                return true;
+            }
+        }
+    }
+    return a.z[a.elements()] >= b.z[0];
 }
 
 }  // namespace detail
@@ -272,7 +295,7 @@ class Scene {
         return gap;
     }
 
-    /// Distances from the curve of a body to the wall and, given the state it is part of, to its neighbours.
+    /// Distances from the curves of one body, or of all, to the wall; and of all to each other.
     FilmThickness<Scalar> film_thickness(const Configuration<Scalar>& configuration) const {
         FilmThickness<Scalar> film;
         if constexpr (confined) {
@@ -282,15 +305,18 @@ class Scene {
         }
         return film;
     }
-    FilmThickness<Scalar> film_thickness(const State& state, std::size_t body) const {
-        FilmThickness<Scalar> film = film_thickness(state[body]);
-        if (body > 0) {
-            film.to_neighbour = gap_above(state, body - 1).width;
+    Films<Scalar> films(const State& state) const {
+        Films<Scalar> films;
+        for (const Configuration<Scalar>& configuration : state) {
+            films.bodies.push_back(film_thickness(configuration));
         }
-        if (body + 1 < state.size()) {
-            film.to_neighbour = std::min(film.to_neighbour, gap_above(state, body).width);
+        for (std::size_t b = 0; b + 1 < state.size(); ++b) {
+            const Gap<Scalar> gap = gap_above(state, b);
+            films.gaps.push_back(gap);
+            films.bodies[b].to_neighbour = std::min(films.bodies[b].to_neighbour, gap.width);
+            films.bodies[b + 1].to_neighbour = gap.width;
         }
-        return film;
+        return films;
     }
 
     /// Between a body and the next one, of their curves.

@@ -121,16 +121,17 @@ class Simulator {
             conserved_.emplace_back(measures, detail::keeps_area(scene_.law(b)));
         }
         histories_.resize(shapes.size());
+        films_ = scene_.films(state);
         for (std::size_t b = 0; b < shapes.size(); ++b) {
-            films_.push_back(scene_.film_thickness(state, b));
-            detail::require(films_[b].min > Scalar(0), "initial shape: its distance to the wall", films_[b].min,
+            const Scalar& film = films_.bodies[b].min;
+            detail::require(film > Scalar(0), "initial shape: its distance to the wall", film,
                             "> 0, that is the shape must fit between the walls");
             if (b > 0) {
                 const Scalar below = state[b - 1].position + state[b - 1].shape.z[state[b - 1].shape.elements()];
                 const Scalar apart = state[b].position + state[b].shape.z[0] - below;
                 detail::require(state[b].position > state[b - 1].position &&
-                                    films_[b].to_neighbour > 32 * std::numeric_limits<Scalar>::epsilon() &&
-                                    !meet(state[b - 1], state[b]),
+                                    films_.bodies[b].to_neighbour > 32 * std::numeric_limits<Scalar>::epsilon() &&
+                                    !detail::meet(state[b - 1], state[b]),
                                 "initial shapes: distance of a body to the one before it", apart,
                                 "such that they do not meet, in the order in which they lie along the axis");
             }
@@ -153,6 +154,7 @@ class Simulator {
     std::size_t bodies() const { return moment_.bodies.size(); }
     const State& state() const { return moment_.bodies; }
     const Configuration<Scalar>& configuration(std::size_t body = 0) const { return moment_.bodies.at(body); }
+    const Films<Scalar>& films() const { return films_; }
     const std::vector<Record>& history(std::size_t body = 0) const { return histories_.at(body); }
     Scalar initial_area(std::size_t body = 0) const { return measures_.at(body).area; }
     Scalar initial_volume(std::size_t body = 0) const { return measures_.at(body).volume; }
@@ -208,9 +210,7 @@ class Simulator {
         moment_.bodies[body] = std::move(refined);
         moment_.instants.clear();
         motion_.resize(0);
-        for (std::size_t b = 0; b < bodies(); ++b) {
-            films_[b] = scene_.film_thickness(moment_.bodies, b);
-        }
+        films_ = scene_.films(moment_.bodies);
     }
 
     /// One time step; the first body's record. Throws SimulationFailure, leaving the state as it was.
@@ -271,12 +271,10 @@ class Simulator {
     }
 
   private:
-    using Film = FilmThickness<Scalar>;
-
     struct Attempt {
         Moment moment;
         std::vector<Record> records;
-        std::vector<Film> films;
+        Films<Scalar> films;
         Vector<Scalar> motion;  // displacements of the nodes of all bodies, stacked
         StepReport<Scalar> report;
     };
@@ -309,20 +307,6 @@ class Simulator {
         return next;
     }
 
-    static bool meet(const Configuration<Scalar>& below, const Configuration<Scalar>& above) {
-        const Meridian<Scalar> a = detail::shifted(below.shape, below.position);
-        const Meridian<Scalar> b = detail::shifted(above.shape, above.position);
-        for (Index i = 0; i < a.elements(); ++i) {
-            for (Index j = 0; j < b.elements(); ++j) {
-                if (detail::segments_cross(Point<Scalar>{a.r[i], a.z[i]}, {a.r[i + 1], a.z[i + 1]}, {b.r[j], b.z[j]},
-                                           {b.r[j + 1], b.z[j + 1]})) {
-                    return true;
-                }
-            }
-        }
-        return a.z[a.elements()] >= b.z[0];
-    }
-
     /// A step of length dt, as far as the state it would lead to. Throws SimulationFailure if it leads nowhere.
     Attempt attempt(const Scalar& dt) {
         using std::abs;
@@ -351,9 +335,9 @@ class Simulator {
             settle(next[b], b, record);
             attempt.records.push_back(record);
         }
+        attempt.films = scene_.films(next);
         for (std::size_t b = 0; b < next.size(); ++b) {
-            attempt.films.push_back(scene_.film_thickness(next, b));
-            keep_apart(next, b, attempt.films[b]);
+            keep_apart(next, b, attempt.films.bodies[b]);
         }
         attempt.moment = scene_.moment(std::move(next));
         for (std::size_t b = 0; b < attempt.records.size(); ++b) {
@@ -387,9 +371,9 @@ class Simulator {
                                       body.surface.normal_z[i] * attempt.motion[begin + n + i];
                 report.displacement = abs(normal) <= report.displacement ? report.displacement : Scalar(abs(normal));
             }
-            report.shear_rate =
-                std::max<Scalar>({report.shear_rate, body.shear_rate,
-                                  Scalar(abs(moment_.instants[b].velocity) / (2 * films_[b].min)), closing_rate(b)});
+            report.shear_rate = std::max<Scalar>(
+                {report.shear_rate, body.shear_rate,
+                 Scalar(abs(moment_.instants[b].velocity) / (2 * films_.bodies[b].min)), closing_rate(b)});
             begin += 2 * n;
         }
         report.reversed = motion_.size() == attempt.motion.size() && attempt.motion.dot(motion_) < Scalar(0);
@@ -400,7 +384,7 @@ class Simulator {
         using std::abs;
         const auto& instants = moment_.instants;
         return b + 1 < instants.size()
-                   ? Scalar(abs(instants[b + 1].velocity - instants[b].velocity) / films_[b].to_neighbour)
+                   ? Scalar(abs(instants[b + 1].velocity - instants[b].velocity) / films_.bodies[b].to_neighbour)
                    : Scalar(0);
     }
 
@@ -445,7 +429,7 @@ class Simulator {
     }
 
     /// In one step the film, or the distance to a neighbour, may lose at most half of its thickness.
-    void keep_apart(const State& next, std::size_t b, const Film& film) const {
+    void keep_apart(const State& next, std::size_t b, const FilmThickness<Scalar>& film) const {
         const auto guard = [](const Scalar& before, const Scalar& after, const char* of, const char* contact) {
             if (std::isinf(static_cast<double>(before)) || after > before / 2) {
                 return;
@@ -455,11 +439,11 @@ class Simulator {
                                               detail::text(before) + " to " + detail::text(after)
                                         : std::string(contact));
         };
-        guard(films_[b].min, film.min, "wall", "the membrane would cross the wall");
-        if (b > 0 && meet(next[b - 1], next[b])) {
+        guard(films_.bodies[b].min, film.min, "wall", "the membrane would cross the wall");
+        if (b > 0 && detail::meet(next[b - 1], next[b])) {
             throw SimulationFailure("bodies " + std::to_string(b - 1) + " and " + std::to_string(b) + " would meet");
         }
-        guard(films_[b].to_neighbour, film.to_neighbour, "next body", "two bodies would touch");
+        guard(films_.bodies[b].to_neighbour, film.to_neighbour, "next body", "two bodies would touch");
     }
 
     void describe(Attempt& attempt, std::size_t b, const Scalar& dt) const {
@@ -479,9 +463,10 @@ class Simulator {
         record.pressure_drop = instant.pressure_drop;
         record.length = body.shape.z[body.shape.nodes() - 1] - body.shape.z[0];
         record.max_radius = scene_.discretization().max_radius(body.shape);
-        record.film_thickness_min = attempt.films[b].min;
-        record.film_thickness_mean = attempt.films[b].mean;
-        record.neighbour_distance = attempt.films[b].to_neighbour;
+        const FilmThickness<Scalar>& film = attempt.films.bodies[b];
+        record.film_thickness_min = film.min;
+        record.film_thickness_mean = film.mean;
+        record.neighbour_distance = film.to_neighbour;
         if constexpr (SceneType::deformable) {
             if (scene_.deforms(b)) {
                 record.bending_energy = scene_.discretization().bending_energy(body.shape);
@@ -515,7 +500,7 @@ class Simulator {
     std::vector<std::vector<Record>> histories_;
     std::vector<Measures<Scalar>> measures_;  // initial
     std::vector<Conserved<Scalar>> conserved_;
-    std::vector<Film> films_;
+    Films<Scalar> films_;
     Vector<Scalar> motion_;  // of the last step
     Scalar time_{};
 };

@@ -25,9 +25,10 @@ template <class Simulator>
 struct DriverResult {
     using S = typename Simulator::Scalar;
 
-    Configuration<S> configuration;
-    std::optional<typename Simulator::InstantType> instant;
-    std::optional<S> velocity;
+    typename Simulator::State bodies;
+    /// Empty if nothing could be computed on the bodies.
+    typename Simulator::SceneType::Instants instants;
+    std::optional<S> velocity;  // of the first body
     std::optional<S> residual;
     bool stationary = false;
     bool interrupted = false;
@@ -44,6 +45,11 @@ struct DriverResult {
     Index stability_elements = 0;
 
     bool error_met() const { return error_estimate <= eps; }
+    const Configuration<S>& configuration(std::size_t body = 0) const { return bodies.at(body); }
+    /// None if nothing could be computed on the bodies.
+    const typename Simulator::InstantType* instant(std::size_t body = 0) const {
+        return body < instants.size() ? &instants[body] : nullptr;
+    }
 };
 
 namespace detail {
@@ -59,12 +65,13 @@ requires(SceneType::deformable) struct UsualSolver<SceneType> {
 
 }  // namespace detail
 
-/// Runs simulations of one body, or, marching only, of several. Without a Solver (void) all states are marched to.
+/// Runs simulations of any bodies. Without a Solver (void) all states are marched to.
 template <class Simulator, class Solver = typename detail::UsualSolver<typename Simulator::SceneType>::type>
 class Driver {
   public:
     using S = typename Simulator::Scalar;
     using Discretization = std::remove_cvref_t<decltype(std::declval<Simulator>().scene().discretization())>;
+    using State = typename Simulator::State;
     using Params = DriverParams<S>;
     using Result = DriverResult<Simulator>;
     /// The simulation from its initial shape, with so many elements at least: more if they could not carry it.
@@ -119,24 +126,24 @@ class Driver {
     Index most(std::size_t body) const { return simulator_->scene().deforms(body) ? most() : 2 * most(); }
 
     /// Whether more than one instant matters: rigid bodies have no way to go unless asked for.
-    bool moves() const {
-        for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
-            if (simulator_->scene().deforms(b)) {
-                return true;
-            }
-        }
-        return params_.transient;
-    }
+    bool moves() const { return params_.transient || !all_rigid(); }
 
-    /// One body, and not a sphere, which has nothing to solve for.
+    /// Not of spheres, which have nothing to solve for.
     bool newton_possible() const {
         if constexpr (deformable && !std::is_void_v<Solver>) {
-            const Measures<S> m{simulator_->initial_area(), simulator_->initial_volume(), S(0)};
-            return simulator_->bodies() == 1 && simulator_->scene().deforms(0) &&
-                   (m.excess_area() > S(1e-5) || !detail::keeps_area(simulator_->scene().law()));
+            for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
+                if (simulator_->scene().deforms(b) && initial_measures(b).excess_area() <= S(1e-5) &&
+                    detail::keeps_area(simulator_->scene().law(b))) {
+                    return false;
+                }
+            }
+            return !all_rigid();
         } else {
             return false;
         }
+    }
+    Measures<S> initial_measures(std::size_t body) const {
+        return {simulator_->initial_area(body), simulator_->initial_volume(body), S(0)};
     }
 
     /// Share of the last modes that may remain: on the way to a stationary state the residual's size will do.
@@ -173,66 +180,66 @@ class Driver {
                isfinite(simulator_->scene().gap({S(0), simulator_->configuration().position}));
     }
 
-    /// The error that the films of the present instant leave in the result, and how many elements each body needs for
-    /// it to be allowed.
-    struct Films {
+    /// The error that films leave in a result, and how many elements each body needs for it to be allowed.
+    struct FilmNeeds {
         double error = 0;
-        std::vector<Index> needed;
-        /// The narrowest gap that even the most elements do not resolve.
+        std::vector<Index> elements;
+        /// The narrowest gap that even the most elements do not resolve, and how many it has.
         std::optional<S> hopeless;
-        Index elements = 0;
+        Index hopeless_elements = 0;
     };
-    Films films(const double wanted) {
-        using std::abs;
+    /// `share(b)`: how much of the result depends on the force in the gap above a body.
+    template <class Share>
+    FilmNeeds film_needs(const Films<S>& films, const State& bodies, const double wanted, const Share& share) const {
         using std::isfinite;
-        Films films;
-        const auto& scene = simulator_->scene();
-        const auto& state = simulator_->state();
         const FilmResolution resolution{spectral()};
+        FilmNeeds needs;
+        for (const auto& body : bodies) {
+            needs.elements.push_back(body.shape.elements());
+        }
         const auto ask = [&](std::size_t body, const S& now, const double nodes) {
             if (double(now) < nodes) {
-                const Index more = elements_for_film(shape(body).elements(), double(now), nodes, most(body));
-                films.needed[body] = std::max(films.needed[body], more);
+                const Index more = elements_for_film(bodies[body].shape.elements(), double(now), nodes, most(body));
+                needs.elements[body] = std::max(needs.elements[body], more);
             }
         };
-        for (std::size_t b = 0; b < state.size(); ++b) {
-            films.needed.push_back(shape(b).elements());
-        }
-        for (std::size_t b = 0; b < state.size(); ++b) {
-            const auto film = scene.film_thickness(state[b]);
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const FilmThickness<S>& film = films.bodies[b];
             if (isfinite(film.wall_nodes)) {
                 const double error = resolution.wall(double(film.wall_nodes), double(film.wall_slenderness));
-                films.error = std::max(films.error, error);
+                needs.error = std::max(needs.error, error);
                 if (error > wanted) {
                     ask(b, film.wall_nodes, resolution.nodes_for_wall(double(film.wall_slenderness), wanted));
                 }
             }
         }
-        for (std::size_t b = 0; b + 1 < state.size(); ++b) {
-            const Gap<S> gap = scene.gap_above(state, b);
+        for (std::size_t b = 0; b < films.gaps.size(); ++b) {
+            const Gap<S>& gap = films.gaps[b];
             if (!(gap.slenderness > S(0))) {
                 continue;
             }
             const auto thin = double(gap.slenderness);
             const double nodes = double(std::min(gap.lower_nodes, gap.upper_nodes));
-            const double share = gap_share(b);
-            const double error = resolution.gap(nodes, thin, share);
-            films.error = std::max(films.error, error);
+            const double part = share(b);
+            const double error = resolution.gap(nodes, thin, part);
+            needs.error = std::max(needs.error, error);
             if (error <= wanted) {
                 continue;
             }
             const double least =
-                resolution.nodes_for_gap(thin, std::min(FilmResolution::unresolved, spectral() ? wanted / share : 1.0));
+                resolution.nodes_for_gap(thin, std::min(FilmResolution::unresolved, spectral() ? wanted / part : 1.0));
             ask(b, gap.lower_nodes, least);
             ask(b + 1, gap.upper_nodes, least);
-            const bool more = films.needed[b] > shape(b).elements() || films.needed[b + 1] > shape(b + 1).elements();
+            const Index lower = bodies[b].shape.elements();
+            const Index upper = bodies[b + 1].shape.elements();
+            const bool more = needs.elements[b] > lower || needs.elements[b + 1] > upper;
             if (resolution.gap(nodes, thin) > FilmResolution::unresolved && !more &&
-                (!films.hopeless || gap.width < *films.hopeless)) {
-                films.hopeless = gap.width;
-                films.elements = std::min(shape(b).elements(), shape(b + 1).elements());
+                (!needs.hopeless || gap.width < *needs.hopeless)) {
+                needs.hopeless = gap.width;
+                needs.hopeless_elements = std::min(lower, upper);
             }
         }
-        return films;
+        return needs;
     }
 
     /// How much of the result depends on the force in a gap: the velocities at which it closes and drains, relative to
@@ -256,35 +263,41 @@ class Driver {
         return params_.transient ? double(params_.eps) / 2 : double(allowed()) / Accuracy<S>::unresolved_to_error;
     }
 
-    /// Whether a film needs more elements than there are.
-    bool films_need() {
+    /// Of the present instant.
+    FilmNeeds film_needs(const double wanted) {
+        return film_needs(simulator_->films(), simulator_->state(), wanted,
+                          [&](std::size_t b) { return gap_share(b); });
+    }
+
+    /// What films need and do not have.
+    std::optional<FilmNeeds> unmet_needs() {
         if (!has_films()) {
-            return false;
+            return std::nullopt;
         }
-        const Films now = films(allowed_of_films());
-        for (std::size_t b = 0; b < now.needed.size(); ++b) {
-            if (adapts() && now.needed[b] > shape(b).elements()) {
-                return true;
+        FilmNeeds now = film_needs(allowed_of_films());
+        for (std::size_t b = 0; b < now.elements.size(); ++b) {
+            if (adapts() && now.elements[b] > shape(b).elements()) {
+                return now;
             }
         }
         film_error_ = params_.transient ? std::max(film_error_, now.error) : now.error;
-        return adapts() && now.hopeless;
+        return adapts() && now.hopeless ? std::optional(std::move(now)) : std::nullopt;
     }
 
     /// More elements where films need them. Throws SimulationFailure where the most are not enough.
     void resolve_films() {
-        while (films_need()) {
-            const Films now = films(allowed_of_films());
+        while (const auto now = unmet_needs()) {
             bool added = false;
-            for (std::size_t b = 0; b < now.needed.size(); ++b) {
-                if (now.needed[b] > shape(b).elements()) {
-                    simulator_->refine(now.needed[b], b);
+            for (std::size_t b = 0; b < now->elements.size(); ++b) {
+                if (now->elements[b] > shape(b).elements()) {
+                    simulator_->refine(now->elements[b], b);
                     added = true;
                 }
             }
             if (!added) {
-                throw SimulationFailure("the distance to the next body, " + detail::text(*now.hopeless) +
-                                        ", is less than " + std::to_string(now.elements) + " elements can resolve");
+                throw SimulationFailure("the distance to the next body, " + detail::text(*now->hopeless) +
+                                        ", is less than " + std::to_string(now->hopeless_elements) +
+                                        " elements can resolve");
             }
         }
     }
@@ -302,7 +315,7 @@ class Driver {
             stopped_ = !observe_(*simulator_);
             const bool rests = record.step >= first && simulator_->residual() < residual && rest_ends();
             going = !rests && record.step < last && !simulator_->finished() && !stopped_;
-            return going && !needy() && !films_need();
+            return going && !needy() && !unmet_needs();
         };
         while (going && steps() < last && !simulator_->finished()) {
             try {
@@ -320,7 +333,7 @@ class Driver {
             } else {
                 going = going && !(simulator_->stationary() && rest_ends());
             }
-            going = going || (!stopped_ && films_need());
+            going = going || (!stopped_ && unmet_needs());
         }
         if (!stopped_) {
             resolve_films();
@@ -370,13 +383,15 @@ class Driver {
         take();
     }
 
-    bool all_rigid() const {
-        bool rigid = true;
+    std::size_t rigid_bodies() const {
+        std::size_t count = 0;
         for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
-            rigid = rigid && !simulator_->scene().deforms(b);
+            count += simulator_->scene().deforms(b) ? 0 : 1;
         }
-        return rigid;
+        return count;
     }
+    bool any_rigid() const { return rigid_bodies() > 0; }
+    bool all_rigid() const { return rigid_bodies() == simulator_->bodies(); }
 
     /// Of rigid bodies the first instant tells how many elements their tractions need; gaps may need more later.
     void resolve_rigid() {
@@ -432,7 +447,7 @@ class Driver {
                      Index coarse_elements) {
         result_.error_estimate = rigid_error(coarse, fine, coarse_elements);
         if (has_films()) {
-            film_error_ = films(double(params_.eps)).error;
+            film_error_ = film_needs(double(params_.eps)).error;
             result_.error_estimate = std::max(result_.error_estimate, film_error());
         }
     }
@@ -464,15 +479,24 @@ class Driver {
     /// Of all bodies.
     std::vector<MeasuredState> measured(const Simulator& simulator) const {
         std::vector<MeasuredState> states;
-        // Nothing drives a body at rest: its velocity is no result.
-        const bool driven = simulator.scene().velocity_scale() > S(0);
         for (std::size_t b = 0; b < simulator.bodies(); ++b) {
-            const auto& configuration = simulator.configuration(b);
             const auto& history = simulator.history(b);
-            states.push_back({driven && !history.empty() ? double(history.back().velocity) : 0.0, length(configuration),
-                              configuration.shape.elements()});
+            states.push_back(measured(simulator.configuration(b), history.empty() ? S(0) : history.back().velocity));
         }
         return states;
+    }
+    template <class Found>
+    std::vector<MeasuredState> measured(const Found& state) const {
+        std::vector<MeasuredState> states;
+        for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+            states.push_back(measured(state.bodies[b], state.instants[b].velocity));
+        }
+        return states;
+    }
+    /// Nothing drives a body at rest: its velocity is no result.
+    MeasuredState measured(const Configuration<S>& body, const S& velocity) const {
+        const bool driven = simulator_->scene().velocity_scale() > S(0);
+        return {driven ? double(velocity) : 0.0, length(body), body.shape.elements()};
     }
     static double largest_error(const std::vector<MeasuredState>& coarse, const std::vector<MeasuredState>& fine) {
         double error = 0;
@@ -492,7 +516,7 @@ class Driver {
                 share = std::max<S>(share, discretization().unresolved(shape(b)));
             }
             result_.error_estimate = share / S(Accuracy<S>::unresolved_to_error) + time_error() + film_error();
-            if (all_rigid()) {
+            if (any_rigid()) {
                 result_.error_estimate += finer_difference();
             }
         }
@@ -610,10 +634,11 @@ class Driver {
 
     /// Of the simulator's last step, its last good one if it failed.
     void take() {
-        result_.configuration = simulator_->configuration();
+        result_.bodies = simulator_->state();
+        result_.instants.clear();
         try {
-            result_.instant = simulator_->instant();
-            result_.velocity = result_.instant->velocity;
+            result_.instants = simulator_->moment().instants;
+            result_.velocity = result_.instants.front().velocity;
         } catch (const SimulationFailure&) {
             // Reported already: the run cannot have ended well on such a shape.
         }
@@ -645,6 +670,9 @@ class Driver {
             if (stopped_ || (simulator_->stationary() && !adapts() && !(params_.newton_tolerance < S(1e-7)))) {
                 break;
             }
+            if (!arrived && !eager && simulator_->bodies() > 1) {
+                break;  // bodies on their way to each other
+            }
             if (converged(eager || !arrived || attempt + 1 == attempts)) {
                 return;
             }
@@ -674,56 +702,46 @@ class Driver {
             solver_params.tolerance = params_.newton_tolerance;
             solver_params.to_round_off = params_.to_round_off;
             Solver solver(simulator_->scene(), solver_params);
-            const S area = simulator_->initial_area();
-            const S volume = simulator_->initial_volume();
-            auto state = solver.solve(shape(), area, volume);
-            if (!anywhere) {
-                constexpr double far = 0.05;
-                if (distance(state.configuration.shape, shape()) > S(far)) {
-                    throw SimulationFailure("stationary state: the solution is not near the shape marched to");
-                }
+            const State start = centred();
+            std::vector<Measures<S>> measures;
+            for (std::size_t b = 0; b < start.size(); ++b) {
+                measures.push_back(initial_measures(b));
+            }
+            auto state = solver.solve(start, measures);
+            if (!anywhere && far(state.bodies, start)) {
+                throw SimulationFailure("stationary state: the solution is not near the shape marched to");
             }
             result_.newton_iterations = state.iterations;
             result_.newton_evaluations = state.evaluations;
             bool examined = false;
             S error = std::numeric_limits<S>::infinity();
             if (!spectral()) {
-                error = coarse_difference(solver, state, area, volume);
+                error = coarse_difference(solver, state, measures);
             }
-            const FilmResolution resolution{spectral()};
             for (;;) {
-                const Meridian<S>& now = state.configuration.shape;
-                S share = 0;
                 if constexpr (can_judge) {
-                    share = discretization().unresolved(now);
-                    error = spectral() ? S(share / S(Accuracy<S>::unresolved_to_error)) : error;
+                    error = spectral() ? unresolved_error(state.bodies) : error;
                 }
-                const auto film = simulator_->scene().film_thickness(state.configuration);
-                const auto thin = double(film.wall_slenderness);
-                film_error_ = resolution.wall(double(film.wall_nodes), thin);
+                const FilmNeeds needs = film_needs(simulator_->scene().films(state.bodies), state.bodies,
+                                                   double(params_.eps) / 2, [](std::size_t) { return 1.0; });
+                film_error_ = needs.error;
                 error += film_error();
                 adopt(state, error);
-                const bool last = error <= params_.eps || !adapts() || now.elements() >= most() || stopped_;
+                const bool last = error <= params_.eps || !adapts() || stopped_ || nothing_to_add(state.bodies);
                 // Growth rates need no more than a recognisable shape, and cost as much as many iterations.
                 if (!examined && (last || !spectral() || error < S(1e-3))) {
-                    examine(solver, state);
+                    examine(solver, state, measures);
                     examined = true;
                 }
                 if (last) {
                     return;
                 }
-                Index next = spectral() ? more_modes(now.elements(), double(share), double(params_.unresolved), most())
-                                        : more_elements(now.elements(), double(error), double(params_.eps), most());
-                if (spectral() && film_error_ > double(params_.eps) / 2) {
-                    const double wanted = resolution.nodes_for_wall(thin, double(params_.eps) / 2);
-                    next = std::max(next, elements_for_film(now.elements(), double(film.wall_nodes), wanted, most()));
-                }
                 try {
-                    auto finer = solver.solve(discretization().redistributed(now, next), area, volume);
+                    auto finer = solver.solve(refined(state.bodies, needs, error), measures);
                     result_.newton_iterations += finer.iterations;
                     result_.newton_evaluations += finer.evaluations;
                     if (!spectral()) {
-                        error = S(second_order_error(measured_state(state), measured_state(finer)));
+                        error = S(largest_error(measured(state), measured(finer)));
                     }
                     state = std::move(finer);
                 } catch (const SimulationFailure& failure) {
@@ -734,19 +752,81 @@ class Driver {
         }
     }
 
-    template <class State>
-    static MeasuredState measured_state(const State& state) {
-        return {double(state.instant.velocity), length(state.configuration), state.configuration.shape.elements()};
+    /// The simulator's bodies, in the middle of the axis: a meshed wall is about there.
+    State centred() const {
+        State bodies = simulator_->state();
+        const S middle = (bodies.front().position + bodies.back().position) / 2;
+        for (auto& body : bodies) {
+            body.position -= middle;
+        }
+        return bodies;
+    }
+
+    /// Whether a body has another shape, or place among the others.
+    static bool far(const State& a, const State& b) {
+        using std::abs;
+        const S most = S(0.05);
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            const S moved = (a[k].position - a[0].position) - (b[k].position - b[0].position);
+            if (abs(moved) > most || distance(a[k].shape, b[k].shape) > most) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// From the share of the last modes, the largest of all bodies.
+    S unresolved_error(const State& bodies) const {
+        S share = 0;
+        for (const auto& body : bodies) {
+            share = std::max<S>(share, discretization().unresolved(body.shape));
+        }
+        return share / S(Accuracy<S>::unresolved_to_error);
+    }
+
+    bool nothing_to_add(const State& bodies) const {
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            if (simulator_->scene().deforms(b) && bodies[b].shape.elements() < most()) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// With more elements where they are missing.
+    State refined(State bodies, const FilmNeeds& needs, const S& error) const {
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const Index now = bodies[b].shape.elements();
+            Index next = needs.elements[b];
+            if (!simulator_->scene().deforms(b)) {
+                next = std::max(now, next);
+            } else if (!spectral()) {
+                next = more_elements(now, double(error), double(params_.eps), most());
+            } else if constexpr (can_judge) {
+                const auto share = double(discretization().unresolved(bodies[b].shape));
+                if (bodies.size() == 1 || share > double(params_.unresolved)) {
+                    next = std::max(next, more_modes(now, share, double(params_.unresolved), most()));
+                }
+            }
+            if (next > now) {
+                bodies[b].shape = discretization().redistributed(bodies[b].shape, next);
+                bodies[b].tension.resize(0);
+            }
+        }
+        return bodies;
     }
 
     /// P1: against three quarters of the elements.
-    template <class Newton, class State>
-    S coarse_difference(Newton& solver, const State& fine, const S& area, const S& volume) {
-        const Index fewer = std::max(minimum_elements, (3 * fine.configuration.shape.elements()) / 4);
+    template <class Newton, class Found>
+    S coarse_difference(Newton& solver, const Found& fine, const std::vector<Measures<S>>& measures) {
+        State fewer = fine.bodies;
+        for (auto& body : fewer) {
+            body.shape =
+                discretization().redistributed(body.shape, std::max(minimum_elements, (3 * body.shape.elements()) / 4));
+            body.tension.resize(0);
+        }
         try {
-            const auto coarse =
-                solver.solve(discretization().redistributed(fine.configuration.shape, fewer), area, volume);
-            return S(second_order_error(measured_state(coarse), measured_state(fine)));
+            return S(largest_error(measured(solver.solve(fewer, measures)), measured(fine)));
         } catch (const SimulationFailure&) {
             return std::numeric_limits<S>::infinity();
         }
@@ -754,32 +834,45 @@ class Driver {
 
     /// Of a coarser state near this one if there are many modes: growth rates need no accuracy, and one evaluation or
     /// two a mode. An unstable state is no end of a march.
-    template <class Newton, class State>
-    void examine(Newton& solver, const State& given) {
+    template <class Newton, class Found>
+    void examine(Newton& solver, const Found& given, const std::vector<Measures<S>>& measures) {
         constexpr Index enough = 64;
-        State state = given;
-        if (spectral() && given.configuration.shape.elements() > enough) {
+        Found state = given;
+        Index elements = 0;
+        bool fewer = false;
+        for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+            auto& body = state.bodies[b];
+            if (spectral() && simulator_->scene().deforms(b) && body.shape.elements() > enough) {
+                body.shape = discretization().redistributed(body.shape, enough);
+                body.tension.resize(0);
+                fewer = true;
+            }
+            elements = std::max(elements, body.shape.elements());
+        }
+        if (fewer) {
             try {
-                state = solver.solve(discretization().redistributed(given.configuration.shape, enough),
-                                     simulator_->initial_area(), simulator_->initial_volume());
+                state = solver.solve(state.bodies, measures);
             } catch (const SimulationFailure&) {
                 return;  // without them
             }
         }
         const S rate = solver.growth_rates(state).front().real();
         result_.growth_rate = rate;
-        result_.stability_elements = state.configuration.shape.elements();
+        result_.stability_elements = elements;
         if (params_.way == WayToStationary::automatic && rate > S(0)) {
             throw SimulationFailure("stationary state: it is unstable, with a growth rate of " + detail::text(rate));
         }
     }
 
-    template <class State>
-    void adopt(const State& state, const S& error) {
-        result_.configuration = state.configuration;
-        result_.configuration.position = simulator_->configuration().position;
-        result_.instant = state.instant;
-        result_.velocity = state.instant.velocity;
+    template <class Found>
+    void adopt(const Found& state, const S& error) {
+        result_.bodies = state.bodies;
+        const S along = simulator_->configuration().position - state.bodies.front().position;
+        for (auto& body : result_.bodies) {
+            body.position += along;
+        }
+        result_.instants = state.instants;
+        result_.velocity = state.instants.front().velocity;
         result_.residual = state.residual;
         result_.stationary = true;
         result_.error_estimate = error;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "../core.hpp"
+#include "broyden.hpp"
 
 #include <Eigen/LU>
 
@@ -222,7 +223,7 @@ class Continuation {
             if (!next) {
                 return std::nullopt;
             }
-            derivative += (problem_.defect(*next) - defect - derivative * step) * step.transpose() / step.squaredNorm();
+            detail::learn<Scalar>(derivative, step, problem_.defect(*next) - defect);
             trial = std::move(*next);
             residual = problem_.residual(trial);
         }

@@ -21,6 +21,7 @@ template <class SceneType>
 requires(SceneType::deformable) class StationaryBranch {
   public:
     using Scalar = typename SceneType::Scalar;
+    using Bodies = typename SceneType::State;
 
     struct Params {
         /// Difference of the parameter for derivatives; > 0. The integrals' errors are divided by it.
@@ -46,9 +47,7 @@ requires(SceneType::deformable) class StationaryBranch {
     /// `shape` at parameter p; need not be stationary. Throws SimulationFailure if it cannot have area and volume.
     Point at(const Scalar& p, const Meridian<Scalar>& shape) {
         validate(shape);
-        Configuration<Scalar> configuration;
-        configuration.shape = shape;
-        auto point = evaluated(p, std::move(configuration));
+        auto point = evaluated(p, Bodies{{shape, Scalar(0), {}}});
         if (!point) {
             throw SimulationFailure("stationary branch: the first shape cannot be given its area and volume");
         }
@@ -66,51 +65,44 @@ requires(SceneType::deformable) class StationaryBranch {
     }
 
     Matrix<Scalar> derivative(const Point& point) {
-        const auto& surface = point.state.frozen.bodies.front().surface;
-        const auto& configuration = point.state.configuration;
-        const Index n = surface.size();
+        const auto& bodies = point.state.bodies;
+        const Index n = point.state.velocity.size();
         detail::MobilityChange<SceneType> change;
         SceneType coarse = detail::loosened_scene(*point.scene, Scalar(1e-4));
         const Index degree = std::min(params_.change_degree, n - 1);
-        change.find(coarse, configuration, point.state.instant.solution.force, degree);
-        const Matrix<Scalar> system =
-            detail::bordered<Scalar>(surface, configuration.shape.z,
-                                     detail::velocity_jacobian(*point.scene, point.state.frozen, configuration,
-                                                               point.state.instant, change.at_nodes(n)),
-                                     keeps_area(point));
+        change.find(*point.scene, coarse, point.state, degree);
+        const auto constraints = detail::constraints(*point.scene, point.state);
+        const Matrix<Scalar> system = detail::bordered<Scalar>(
+            constraints, detail::VelocityJacobian<SceneType>(*point.scene, point.state, change)());
         const Index m = system.rows();
         Matrix<Scalar> derivative = Matrix<Scalar>::Zero(m, m + 1);
         derivative.leftCols(m) = system;
         const Scalar step = params_.parameter_step;
         const Scalar p = point.parameter;
         detail::StationaryPoint<SceneType> there;
-        there.configuration = configuration;
+        there.bodies = bodies;
         SceneType scene = scene_(p + step);
         detail::evaluate(scene, there);
         derivative.col(m).head(n) = (there.velocity - point.state.velocity) / step;
-        derivative(n, m) = -(volume_(p + step) - volume_(p)) / step;
-        if (keeps_area(point)) {
-            derivative(n + 2, m) = -(area_(p + step) - area_(p)) / step;
+        derivative(n + constraints.volumes[0], m) = -(volume_(p + step) - volume_(p)) / step;
+        if (constraints.areas[0] >= 0) {
+            derivative(n + constraints.areas[0], m) = -(area_(p + step) - area_(p)) / step;
         }
         return derivative;
     }
 
     std::optional<Point> moved(const Point& point, const Vector<Scalar>& dx, const Scalar& dp) const {
-        Configuration<Scalar> configuration = point.state.configuration;
-        const Index n = configuration.shape.nodes();
-        detail::displace<Scalar>(configuration.shape, point.state.frozen.bodies.front().surface, dx.head(n));
-        return evaluated(point.parameter + dp, std::move(configuration));
+        return evaluated(point.parameter + dp,
+                         detail::displaced(*point.scene, point.state, dx.head(point.state.velocity.size())));
     }
 
     /// Nodes are moved between solutions: within an iteration that would upset what it has learned.
     bool regularize(Point& point) const {
-        Meridian<Scalar> shape = point.state.configuration.shape;
-        if (!point.scene->discretization().redistribute(shape)) {
+        Bodies bodies = point.state.bodies;
+        if (!point.scene->discretization().redistribute(bodies.front().shape)) {
             return false;
         }
-        Configuration<Scalar> configuration = point.state.configuration;
-        configuration.shape = std::move(shape);
-        auto moved = evaluated(point.parameter, std::move(configuration));
+        auto moved = evaluated(point.parameter, std::move(bodies));
         if (!moved) {
             return false;
         }
@@ -120,9 +112,8 @@ requires(SceneType::deformable) class StationaryBranch {
 
     Scalar growth(const Point& point, const Matrix<Scalar>& derivative) const {
         const Index n = point.state.velocity.size();
-        return detail::growth_rates<Scalar>(point.state.frozen.bodies.front().surface,
-                                            point.state.configuration.shape.z, derivative.topLeftCorner(n, n),
-                                            keeps_area(point))
+        return detail::growth_rates<Scalar>(detail::constraints(*point.scene, point.state),
+                                            derivative.topLeftCorner(n, n))
             .front()
             .real();
     }
@@ -130,13 +121,13 @@ requires(SceneType::deformable) class StationaryBranch {
   private:
     static bool keeps_area(const Point& point) { return detail::keeps_area(point.scene->law()); }
 
-    std::optional<Point> evaluated(const Scalar& p, Configuration<Scalar> configuration) const {
+    std::optional<Point> evaluated(const Scalar& p, Bodies bodies) const {
         Point point;
         point.parameter = p;
         point.scene = std::make_shared<SceneType>(scene_(p));
-        point.state.configuration = std::move(configuration);
-        const auto conserved = detail::conserved_in(*point.scene, Scalar(area_(p)), Scalar(volume_(p)));
-        if (!detail::settle(*point.scene, point.state.configuration, conserved)) {
+        point.state.bodies = std::move(bodies);
+        const std::vector<Measures<Scalar>> measures{{area_(p), volume_(p), Scalar(0)}};
+        if (!detail::settle(*point.scene, point.state.bodies, detail::conserved_in(*point.scene, measures))) {
             return std::nullopt;
         }
         detail::evaluate(*point.scene, point.state);

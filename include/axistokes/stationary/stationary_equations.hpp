@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The equations of a stationary state, w = 0 with volume, axial position and, if the law keeps it, area given, and
-// their linearisation (docs/stationary.md).
+// The linearised equations of a stationary state, w = 0 with volumes, the first body's place and, of laws that keep
+// them, areas given; growth rates; and what Newton's method and continuation do alike (docs/stationary.md).
 #pragma once
 
-#include "../geometry/conserved.hpp"
 #include "velocity_jacobian.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -16,78 +15,69 @@
 
 namespace axistokes::detail {
 
-/// A shape, and the velocities on it.
-template <class SceneType>
-struct StationaryPoint {
-    using Scalar = typename SceneType::Scalar;
+/// Rows: the change of each deformable body's volume and, if its law keeps it, of its area by normal displacements phi
+/// (phi and 2 H phi integrated), and of the first body's place. Columns: the displacements n, H n and the translation
+/// that correct them.
+template <class S>
+struct StationaryConstraints {
+    Matrix<S> gradients;
+    Matrix<S> corrections;
+    std::vector<Index> volumes;  // rows; -1 of rigid bodies
+    std::vector<Index> areas;    // likewise, and of laws that do not keep them
 
-    Configuration<Scalar> configuration;
-    typename SceneType::Frozen frozen;
-    typename SceneType::InstantType instant;
-    Vector<Scalar> velocity;  // normal, relative to the centroid
-    Scalar residual{};        // as in StepRecord
+    Index size() const { return gradients.rows(); }
 };
 
 template <class SceneType>
-void evaluate(SceneType& scene, StationaryPoint<SceneType>& point) {
+StationaryConstraints<typename SceneType::Scalar> constraints(const SceneType& scene,
+                                                              const StationaryPoint<SceneType>& point) {
     using S = typename SceneType::Scalar;
-    const typename SceneType::State state{point.configuration};
-    point.frozen = scene.freeze(state);
-    point.instant = std::move(scene.evaluate(point.frozen, state, S(0)).front());
-    point.velocity =
-        relative_normal_velocity<S>(point.instant.surface, point.configuration.shape.z, point.instant.solution.velocity)
-            .second;
-    point.residual = point.instant.deformation_rate / std::max(S(1), scene.velocity_scale());
-}
-
-/// What the one body of a scene conserves, with the values given.
-template <class SceneType, class S>
-Conserved<S> conserved_in(const SceneType& scene, const S& area, const S& volume) {
-    return {Measures<S>{area, volume, S(0)}, keeps_area(scene.law())};
-}
-
-/// Restores what the body conserves and puts the centroid at 0; false if the shape is unusable.
-template <class SceneType, class S>
-bool settle(const SceneType& scene, Configuration<S>& configuration, const Conserved<S>& conserved) {
-    Meridian<S>& shape = configuration.shape;
-    if (!scene.fault(configuration).empty() || !conserved.restore(scene.discretization(), shape) ||
-        !scene.fault(configuration).empty()) {
-        return false;
+    const StationaryLayout layout(scene, point.bodies);
+    StationaryConstraints<S> result;
+    Index count = 1;
+    for (std::size_t b = 0; b < point.bodies.size(); ++b) {
+        const bool deforms = scene.deforms(b);
+        result.volumes.push_back(deforms ? count++ : -1);
+        result.areas.push_back(deforms && keeps_area(scene.law(b)) ? count++ : -1);
     }
-    shape.z.array() -= scene.discretization().measures(shape).centroid;
-    return true;
-}
-
-/// Rows: the change of volume, of the centroid and, if the law keeps it, of the area by a normal displacement phi (phi,
-/// z phi and 2 H phi integrated). Columns: the displacements n, the translation and H n that correct them.
-template <class S, class Surface>
-std::pair<Matrix<S>, Matrix<S>> constraints(const Surface& surface, const Vector<S>& z, bool keeps_area) {
-    const Index n = surface.size();
-    const Index count = keeps_area ? 3 : 2;
-    Matrix<S> gradients(count, n);
-    Matrix<S> corrections(n, count);
-    gradients.row(0) = surface.weight.transpose();
-    gradients.row(1) = surface.weight.cwiseProduct(z).transpose();
-    corrections.col(0).setOnes();
-    corrections.col(1) = surface.normal_z;
-    if (keeps_area) {
-        gradients.row(2) = 2 * surface.weight.cwiseProduct(surface.mean_curvature).transpose();
-        corrections.col(2) = surface.mean_curvature;
+    result.gradients = Matrix<S>::Zero(count, layout.all());
+    result.corrections = Matrix<S>::Zero(layout.all(), count);
+    for (std::size_t b = 0; b < point.bodies.size(); ++b) {
+        const auto& surface = point.surface(b);
+        const Index begin = layout.unknowns[b];
+        const Index n = layout.unknowns[b + 1] - begin;
+        if (b == 0) {
+            if (scene.deforms(b)) {
+                result.gradients.row(0).segment(begin, n) =
+                    surface.weight.cwiseProduct(point.bodies[b].shape.z).transpose();
+                result.corrections.col(0).segment(begin, n) = surface.normal_z;
+            } else {
+                result.gradients(0, begin) = result.corrections(begin, 0) = S(1);
+            }
+        }
+        if (scene.deforms(b)) {
+            result.gradients.row(result.volumes[b]).segment(begin, n) = surface.weight.transpose();
+            result.corrections.col(result.volumes[b]).segment(begin, n).setOnes();
+        }
+        if (result.areas[b] >= 0) {
+            result.gradients.row(result.areas[b]).segment(begin, n) =
+                2 * surface.weight.cwiseProduct(surface.mean_curvature).transpose();
+            result.corrections.col(result.areas[b]).segment(begin, n) = surface.mean_curvature;
+        }
     }
-    return {std::move(gradients), std::move(corrections)};
+    return result;
 }
 
 /// [J, corrections; constraints, 0]: unknowns phi and multipliers that vanish with w. They take up what is left of w's
 /// exact dependencies.
-template <class S, class Surface>
-Matrix<S> bordered(const Surface& surface, const Vector<S>& z, const Matrix<S>& jacobian, bool keeps_area) {
+template <class S>
+Matrix<S> bordered(const StationaryConstraints<S>& constraints, const Matrix<S>& jacobian) {
     const Index n = jacobian.rows();
-    const auto [gradients, corrections] = constraints<S>(surface, z, keeps_area);
-    const Index count = gradients.rows();
+    const Index count = constraints.size();
     Matrix<S> system = Matrix<S>::Zero(n + count, n + count);
     system.topLeftCorner(n, n) = jacobian;
-    system.topRightCorner(n, count) = corrections;
-    system.bottomLeftCorner(count, n) = gradients;
+    system.topRightCorner(n, count) = constraints.corrections;
+    system.bottomLeftCorner(count, n) = constraints.gradients;
     return system;
 }
 
@@ -96,10 +86,10 @@ Matrix<S> bordered(const Surface& surface, const Vector<S>& z, const Matrix<S>& 
 /// With the corrections C, J - C (G C)^-1 (G J + s G) takes these displacements to such ones and all others, up to such
 /// ones, to -s times themselves: it has the eigenvalues wanted, and -s as often as there are constraints. A large s
 /// tells them apart.
-template <class S, class Surface>
-std::vector<std::complex<S>> growth_rates(const Surface& surface, const Vector<S>& z, const Matrix<S>& jacobian,
-                                          bool keeps_area) {
-    const auto [gradients, corrections] = constraints<S>(surface, z, keeps_area);
+template <class S>
+std::vector<std::complex<S>> growth_rates(const StationaryConstraints<S>& constraints, const Matrix<S>& jacobian) {
+    const Matrix<S>& gradients = constraints.gradients;
+    const Matrix<S>& corrections = constraints.corrections;
     const Eigen::PartialPivLU<Matrix<S>> lu(Matrix<S>(gradients * corrections));
     Matrix<S> kept = jacobian - corrections * lu.solve(gradients * jacobian);
     const S shift = 2 * kept.cwiseAbs().rowwise().sum().maxCoeff();

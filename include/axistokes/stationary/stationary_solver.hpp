@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Stationary shapes, their velocity and tension by Newton's method, and their linear stability (docs/stationary.md).
 //
-// Unknowns: normal displacements phi of the nodes. Equations: the normal velocity relative to the centroid vanishes,
-// w(x) = 0, with area, volume and axial position given. The Jacobian J is that of velocity_jacobian.hpp, corrected by
-// what the iterations show to be missing (Broyden 1965). Far from the solution a step is one of the linearly implicit
-// Euler method, (1/dt - J) phi = w, with the longest dt that keeps the displacement within bounds.
+// Unknowns: normal displacements phi of the nodes, and axial ones of rigid bodies. Equations: the velocities against
+// them relative to the first body's centroid vanish, w(x) = 0, with areas, volumes and the first body's place given.
+// The Jacobian J is that of velocity_jacobian.hpp, corrected by what the iterations show to be missing (Broyden 1965).
+// Far from the solution a step is one of the linearly implicit Euler method, (1/dt - J) phi = w, with the longest dt
+// that keeps the displacement within bounds.
 #pragma once
 
+#include "broyden.hpp"
 #include "stationary_equations.hpp"
 
 #include <algorithm>
@@ -39,9 +41,9 @@ struct StationaryParams {
 
 template <class S, class InstantType>
 struct StationaryState {
-    Configuration<S> configuration;
-    InstantType instant;
-    S residual{};
+    std::vector<Configuration<S>> bodies;
+    std::vector<InstantType> instants;
+    S residual{};  // the largest of all bodies
     /// Leading growth rate by the last Jacobian: to a few per cent, but in thin films wrong by a factor, unlike those
     /// of growth_rates(); NaN if none was needed, or only_stable is not set.
     S growth = std::numeric_limits<S>::quiet_NaN();
@@ -51,15 +53,19 @@ struct StationaryState {
     Index coarse_evaluations = 0;  // with half of the modes, or fewer
     Index coarse_jacobians = 0;
     Index mobility_changes = 0;  // coarse linearisations of the single layer
+
+    const Configuration<S>& configuration(std::size_t body = 0) const { return bodies.at(body); }
+    const InstantType& instant(std::size_t body = 0) const { return instants.at(body); }
 };
 
-/// Finds and examines stationary states of a scene with a deformable membrane.
+/// Finds and examines stationary states of a scene with deformable bodies, and rigid ones beside them.
 template <class SceneType>
 requires(SceneType::deformable) class StationarySolver {
   public:
     using Scalar = typename SceneType::Scalar;
     using Frozen = typename SceneType::Frozen;
     using InstantType = typename SceneType::InstantType;
+    using Bodies = typename SceneType::State;
     using State = StationaryState<Scalar, InstantType>;
     using Params = StationaryParams<Scalar>;
 
@@ -79,48 +85,62 @@ requires(SceneType::deformable) class StationarySolver {
     const SceneType& scene() const { return scene_; }
     const Params& params() const { return params_; }
 
-    /// The stationary state near `shape`, of the given area and volume. Throws SimulationFailure with the cause when
-    /// the iteration does not converge; then start closer, from a few time steps or a neighbouring solution.
-    State solve(const Meridian<Scalar>& shape, const Scalar& area, const Scalar& volume) {
-        validate(shape);
+    /// The stationary state near these bodies, of the given areas and volumes: one body's centroid relative to the
+    /// first one's is part of the solution. Throws InvalidArgument if there are not as many measures as bodies, and
+    /// SimulationFailure with the cause when the iteration does not converge; then start closer, from a few time steps
+    /// or a neighbouring solution.
+    State solve(const Bodies& bodies, const std::vector<Measures<Scalar>>& measures) {
+        detail::require(measures.size() == bodies.size() && !bodies.empty(), "number of measures", measures.size(),
+                        "that of the bodies, at least 1");
+        for (const auto& body : bodies) {
+            validate(body.shape);
+        }
+        const auto conserved = detail::conserved_in(scene_, measures);
         State state;
         Linearisation linearisation;
-        const Index half = shape.elements() / 2;
-        if (params_.coarse_start && half >= least_degree) {
+        if (params_.coarse_start && fewest_elements(bodies) / 2 >= least_degree) {
             try {
                 State coarse;
-                iterate(coarse_, detail::resampled(shape, half), area, volume, coarse_tolerance(), linearisation,
-                        coarse);
+                Bodies start = bodies;
+                for (std::size_t b = 0; b < start.size(); ++b) {
+                    resample(start, b, bodies[b].shape.elements() / 2);
+                }
+                iterate(coarse_, start, conserved, coarse_tolerance(), linearisation, coarse);
                 state.coarse_evaluations = coarse.evaluations;
                 state.coarse_jacobians = coarse.jacobians;
                 state.mobility_changes = coarse.mobility_changes;
-                iterate(scene_, detail::resampled(coarse.configuration.shape, shape.elements()), area, volume,
-                        params_.tolerance, linearisation, state);
+                start = std::move(coarse.bodies);
+                for (std::size_t b = 0; b < start.size(); ++b) {
+                    resample(start, b, bodies[b].shape.elements());
+                }
+                iterate(scene_, start, conserved, params_.tolerance, linearisation, state);
                 return state;
             } catch (const SimulationFailure&) {
                 // Half of the nodes may not resolve the shape.
                 linearisation = {};
             }
         }
-        iterate(scene_, shape, area, volume, params_.tolerance, linearisation, state);
+        iterate(scene_, bodies, conserved, params_.tolerance, linearisation, state);
         return state;
     }
+    /// Of one body, near `shape`.
+    State solve(const Meridian<Scalar>& shape, const Scalar& area, const Scalar& volume) {
+        return solve(Bodies{{shape, Scalar(0), {}}}, {Measures<Scalar>{area, volume, Scalar(0)}});
+    }
 
-    /// Growth rates of small axisymmetric disturbances that keep area, volume and the centroid, largest real part
-    /// first: the eigenvalues of dw/dphi on these disturbances. The state is stable if all are negative.
+    /// Growth rates of small axisymmetric disturbances that keep areas, volumes and the first centroid, largest real
+    /// part first: the eigenvalues of dw/dphi on these disturbances. The state is stable if all are negative.
     std::vector<std::complex<Scalar>> growth_rates(const State& state) {
-        const auto frozen = scene_.freeze({state.configuration});
+        const Point point = point_of(state);
         SceneType accurate = detail::loosened_scene(scene_, rates_quadrature());
+        const auto constraints = detail::constraints(scene_, point);
         const auto rates_with = [&](Index degree) {
             detail::MobilityChange<SceneType> change;
-            change.find_accurately(accurate, state.configuration, state.instant.solution.force, degree);
-            return detail::growth_rates<Scalar>(
-                state.instant.surface, state.configuration.shape.z,
-                detail::velocity_jacobian(scene_, frozen, state.configuration, state.instant,
-                                          change.at_nodes(state.instant.surface.size())),
-                keeps_area());
+            change.find_accurately(scene_, accurate, point, degree);
+            return detail::growth_rates<Scalar>(constraints,
+                                                detail::VelocityJacobian<SceneType>(scene_, point, change)());
         };
-        const Index finest = state.configuration.shape.elements();
+        const Index finest = most_elements(state.bodies);
         Index degree = std::min(coarsest_rates, finest);
         auto rates = rates_with(degree);
         for (Scalar change = 1; change > rates_accuracy() && degree < finest;) {
@@ -132,25 +152,62 @@ requires(SceneType::deformable) class StationarySolver {
         return rates;
     }
 
-    /// The same by central differences of the full equations: twice as many evaluations as nodes.
+    /// The same by central differences of the full equations: twice as many evaluations as unknowns.
     std::vector<std::complex<Scalar>> growth_rates(const State& state, const Scalar& step) {
-        const auto& surface = state.instant.surface;
-        const Index n = surface.size();
+        const Point point = point_of(state);
+        const Index n = detail::StationaryLayout(scene_, point.bodies).all();
+        const auto velocity = [&](const Vector<Scalar>& displacement) {
+            Point moved;
+            moved.bodies = detail::displaced(scene_, point, displacement);
+            detail::evaluate(scene_, moved);
+            return moved.velocity;
+        };
         Matrix<Scalar> jacobian(n, n);
         for (Index j = 0; j < n; ++j) {
-            jacobian.col(j) = (disturbed(state, step * Vector<Scalar>::Unit(n, j)) -
-                               disturbed(state, -step * Vector<Scalar>::Unit(n, j))) /
-                              (2 * step);
+            jacobian.col(j) =
+                (velocity(step * Vector<Scalar>::Unit(n, j)) - velocity(-step * Vector<Scalar>::Unit(n, j))) /
+                (2 * step);
         }
-        return detail::growth_rates<Scalar>(surface, state.configuration.shape.z, jacobian, keeps_area());
+        return detail::growth_rates<Scalar>(detail::constraints(scene_, point), jacobian);
     }
 
   private:
     using Point = detail::StationaryPoint<SceneType>;
 
-    bool keeps_area() const { return detail::keeps_area(scene_.law()); }
-    static const typename SceneType::Surface& surface_of(const Point& point) {
-        return point.frozen.bodies.front().surface;
+    using Conserved = std::vector<axistokes::Conserved<Scalar>>;
+
+    /// Of the deformable bodies.
+    template <class Best>
+    Index elements(const Bodies& bodies, const Best& best) const {
+        Index found = 0;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            if (scene_.deforms(b)) {
+                const Index own = bodies[b].shape.elements();
+                found = found == 0 ? own : best(found, own);
+            }
+        }
+        return found;
+    }
+    Index fewest_elements(const Bodies& bodies) const {
+        return elements(bodies, [](Index a, Index b) { return std::min(a, b); });
+    }
+    Index most_elements(const Bodies& bodies) const {
+        return elements(bodies, [](Index a, Index b) { return std::max(a, b); });
+    }
+
+    void resample(Bodies& bodies, std::size_t b, Index elements) const {
+        if (scene_.deforms(b)) {
+            bodies[b].shape = detail::resampled(bodies[b].shape, elements);
+            bodies[b].tension.resize(0);
+        }
+    }
+
+    Point point_of(const State& state) {
+        Point point;
+        point.bodies = state.bodies;
+        point.frozen = scene_.freeze(state.bodies);
+        point.instants = state.instants;
+        return point;
     }
 
     /// Least degree and residual of a solution that is a first guess.
@@ -171,16 +228,24 @@ requires(SceneType::deformable) class StationarySolver {
         Scalar travelled = std::numeric_limits<Scalar>::max();  // since then, in R0
     };
 
-    /// From `shape` to the stationary state of `scene`; counts what it takes, also when it fails.
-    void iterate(SceneType& scene, const Meridian<Scalar>& shape, const Scalar& area, const Scalar& volume,
-                 const Scalar& tolerance, Linearisation& linearisation, State& state) {
+    /// Whether nodes were moved.
+    bool redistribute(const SceneType& scene, Bodies& bodies) const {
+        bool moved = false;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            moved = (scene.deforms(b) && scene.discretization().redistribute(bodies[b].shape)) || moved;
+        }
+        return moved;
+    }
+
+    /// From `bodies` to the stationary state of `scene`; counts what it takes, also when it fails.
+    void iterate(SceneType& scene, const Bodies& bodies, const Conserved& conserved, const Scalar& tolerance,
+                 Linearisation& linearisation, State& state) {
         Point point;
-        point.configuration.shape = shape;
-        scene.discretization().redistribute(point.configuration.shape);
-        const Conserved<Scalar> conserved = detail::conserved_in(scene, area, volume);
-        if (!detail::settle(scene, point.configuration, conserved)) {
-            throw SimulationFailure("stationary state: the first shape cannot be given the area " + detail::text(area) +
-                                    " and the volume " + detail::text(volume));
+        point.bodies = bodies;
+        redistribute(scene, point.bodies);
+        if (!detail::settle(scene, point.bodies, conserved)) {
+            throw SimulationFailure(
+                "stationary state: the first shapes meet, or cannot be given their areas and volumes");
         }
         detail::evaluate(scene, point);
         ++state.evaluations;
@@ -188,30 +253,28 @@ requires(SceneType::deformable) class StationarySolver {
         Scalar growth = 0;
         const auto renew = [&](Index degree) {
             if (linearisation.travelled > stale_change() || degree > linearisation.change.degree()) {
-                linearisation.change.find(coarse_, point.configuration, point.instant.solution.force, degree);
+                linearisation.change.find(scene, coarse_, point, degree);
                 linearisation.travelled = 0;
                 ++state.mobility_changes;
             }
-            jacobian = detail::velocity_jacobian(scene, point.frozen, point.configuration, point.instant,
-                                                 linearisation.change.at_nodes(point.velocity.size()));
+            jacobian = detail::VelocityJacobian<SceneType>(scene, point, linearisation.change)();
             ++state.jacobians;
             if (params_.only_stable) {
-                const auto& z = point.configuration.shape.z;
-                state.growth =
-                    detail::growth_rates<Scalar>(surface_of(point), z, jacobian, keeps_area()).front().real();
+                state.growth = detail::growth_rates<Scalar>(detail::constraints(scene, point), jacobian).front().real();
                 growth = std::max(Scalar(0), state.growth);
             }
         };
         Scalar limit = params_.largest_displacement;
-        Index degree = std::min(std::max(coarsest_change, linearisation.change.degree()), shape.elements());
+        const Index most = most_elements(bodies);
+        Index degree = std::min(std::max(coarsest_change, linearisation.change.degree()), most);
         // After a short step that gained little: whether the mobility's change can be improved, by a higher degree or,
         // if next to nothing was gained, for having been found too far away. If not, another Jacobian would be the
         // same, without what it has learned.
         const auto refine = [&](const Scalar& length, bool hardly) {
-            const bool finest = degree == shape.elements();
+            const bool finest = degree == most;
             const bool distant = hardly && linearisation.travelled > 3 * length;
             if (!finest) {
-                degree = raised(degree, shape.elements());
+                degree = raised(degree, most);
             } else if (distant) {
                 linearisation.travelled = std::numeric_limits<Scalar>::max();
             }
@@ -232,24 +295,22 @@ requires(SceneType::deformable) class StationarySolver {
             if (jacobian.size() == 0) {
                 renew(degree);
             }
-            const Vector<Scalar> step = bounded_step(point, jacobian, Scalar(1.1) * growth, limit);
+            const Vector<Scalar> step = bounded_step(scene, point, jacobian, Scalar(1.1) * growth, limit);
             const Scalar length = step.cwiseAbs().maxCoeff();
             if (!(length < std::numeric_limits<Scalar>::max())) {
                 throw SimulationFailure("stationary state: the linearised equations are singular");
             }
             Point trial;
-            trial.configuration = point.configuration;
-            detail::displace<Scalar>(trial.configuration.shape, surface_of(point), step);
-            const bool usable = detail::settle(scene, trial.configuration, conserved);
+            trial.bodies = detail::displaced(scene, point, step);
+            const bool usable = detail::settle(scene, trial.bodies, conserved);
             bool moved = false;
             if (usable) {
-                moved = scene.discretization().redistribute(trial.configuration.shape);
+                moved = redistribute(scene, trial.bodies);
                 detail::evaluate(scene, trial);
                 ++state.evaluations;
             }
             if (usable && !moved) {
-                const Vector<Scalar> missed = trial.velocity - point.velocity - jacobian * step;
-                jacobian += missed * step.transpose() / step.squaredNorm();
+                detail::learn<Scalar>(jacobian, step, trial.velocity - point.velocity);
             }
             if (converged && !(usable && trial.residual < point.residual)) {
                 break;
@@ -280,18 +341,12 @@ requires(SceneType::deformable) class StationarySolver {
                 }
             }
         }
-        state.configuration = std::move(point.configuration);
-        state.configuration.tension = point.instant.solution.tension;
-        state.instant = std::move(point.instant);
+        state.bodies = std::move(point.bodies);
+        state.instants = std::move(point.instants);
+        for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+            state.bodies[b].tension = state.instants[b].solution.tension;
+        }
         state.residual = point.residual;
-    }
-
-    Vector<Scalar> disturbed(const State& state, const Vector<Scalar>& displacement) {
-        Configuration<Scalar> moved = state.configuration;
-        detail::displace<Scalar>(moved.shape, state.instant.surface, displacement);
-        const auto instant = scene_.evaluate(moved, Scalar(0));
-        return detail::relative_normal_velocity<Scalar>(instant.surface, moved.shape.z, instant.solution.velocity)
-            .second;
     }
 
     /// (J - s) phi = -w with the constraints' changes zero.
@@ -304,11 +359,10 @@ requires(SceneType::deformable) class StationarySolver {
     }
 
     /// The step with the least shift, from `least` on, whose displacements keep to the limit.
-    Vector<Scalar> bounded_step(const Point& point, const Matrix<Scalar>& jacobian, const Scalar& least,
-                                const Scalar& limit) const {
+    static Vector<Scalar> bounded_step(const SceneType& scene, const Point& point, const Matrix<Scalar>& jacobian,
+                                       const Scalar& least, const Scalar& limit) {
         using std::sqrt;
-        const Matrix<Scalar> system =
-            detail::bordered<Scalar>(surface_of(point), point.configuration.shape.z, jacobian, keeps_area());
+        const Matrix<Scalar> system = detail::bordered(detail::constraints(scene, point), jacobian);
         Vector<Scalar> step = newton_step(point, system, least);
         if (step.cwiseAbs().maxCoeff() <= limit) {
             return step;

@@ -1,179 +1,460 @@
 // SPDX-License-Identifier: MIT
-// Derivative of an interface's normal velocity with respect to normal displacements of its nodes, whatever its law
+// Derivative of the velocities against the unknowns of a stationary state, whatever the laws of the bodies
 // (docs/stationary.md).
 #pragma once
 
 #include "../equation/flux.hpp"
 #include "../geometry/series_transfer.hpp"
-#include "../scene.hpp"
+#include "../operators.hpp"
 #include "coarse_scene.hpp"
+#include "stationary_point.hpp"
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace axistokes::detail {
 
-/// Moves the nodes by `displacement` along the normals of `surface`; the poles stay on the axis.
-template <class S, class Surface>
-void displace(Meridian<S>& shape, const Surface& surface, const Vector<S>& displacement) {
-    const Index n = shape.nodes();
-    shape.r += surface.normal_r.cwiseProduct(displacement);
-    shape.z += surface.normal_z.cwiseProduct(displacement);
-    shape.r[0] = shape.r[n - 1] = 0;
-}
-
-/// Change of the velocity G f + (what walls add to the flow) at the nodes, f fixed, with the amplitudes of the first
-/// modes cos(kt) of the normal displacement: 2n x modes. Differences, one-sided or central: an assembly for each mode,
-/// or two.
+/// A body's undisturbed velocity as the equations have it, but for what a meshed wall adds.
 template <class SceneType>
-Matrix<typename SceneType::Scalar> mobility_change(SceneType& scene,
-                                                   const Configuration<typename SceneType::Scalar>& configuration,
-                                                   const Vector<typename SceneType::Scalar>& force, Index modes,
-                                                   const typename SceneType::Scalar& step, bool central) {
-    using std::cos;
+Vector<typename SceneType::Scalar> undisturbed(const SceneType& scene, std::size_t body,
+                                               const Configuration<typename SceneType::Scalar>& configuration,
+                                               const typename SceneType::Surface& surface) {
     using S = typename SceneType::Scalar;
-    const Index n = configuration.shape.nodes();
-    const auto velocity = [&](const Configuration<S>& at, auto& surface) {
-        auto frozen = scene.freeze({at});
-        surface = std::move(frozen.bodies.front().surface);
-        Vector<S> u = frozen.mobility * force;
-        if constexpr (std::decay_t<decltype(scene.wall())>::present) {
-            u += frozen.background - without_flux<S>(surface, scene.background_velocity(at));
-        }
-        return u;
-    };
-    typename SceneType::Surface surface;
-    typename SceneType::Surface moved_surface;
-    const Vector<S> here = velocity(configuration, surface);
-    Matrix<S> change(2 * n, modes);
-    Vector<S> mode(n);
-    for (Index k = 0; k < modes; ++k) {
-        for (Index i = 0; i < n; ++i) {
-            mode[i] = step * cos(pi_value<S>() * S(k * i % (2 * (n - 1))) / S(n - 1));
-        }
-        const auto displaced = [&](const S& factor) {
-            Configuration<S> moved = configuration;
-            displace<S>(moved.shape, surface, factor * mode);
-            return velocity(moved, moved_surface);
-        };
-        if (central) {
-            change.col(k) = (displaced(S(1)) - displaced(S(-1))) / (2 * step);
-        } else {
-            change.col(k) = (displaced(S(1)) - here) / step;
-        }
-    }
-    return change;
+    const Vector<S> flow = scene.background_velocity(configuration);
+    return scene.deforms(body) ? without_flux<S>(surface, flow) : flow;
 }
 
-/// The change of G f with normal displacements, found on a coarse meridian: it is smoother by three derivatives than
-/// that of the bending force. Kept as modes, it serves any number of nodes, and shapes near by.
+/// The change of G f + (what walls add to the flow), f fixed, with the unknowns, found on coarse meridians: it is
+/// smoother by three derivatives than that of the bending force. Kept as the amplitudes of modes cos(kt) of the normal
+/// displacements, it serves any number of nodes, and shapes near by.
+///
+/// How several bodies push each other along may be a small part of it: their translations are differentiated with all
+/// nodes and the scene's own integrals.
 template <class SceneType>
 class MobilityChange {
   public:
     using S = typename SceneType::Scalar;
+    using State = typename SceneType::State;
+    using Point = StationaryPoint<SceneType>;
 
     Index degree() const { return degree_; }
 
     /// For an iteration: one-sided differences, the first three quarters of the modes.
-    void find(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force, Index degree) {
-        find(coarse, configuration, force, degree, (3 * degree) / 4, false);
+    void find(SceneType& scene, SceneType& coarse, const Point& point, Index degree) {
+        find(scene, coarse, point, degree, false);
     }
     /// For growth rates, in films no thicker than some hundred steps of the differences too: central ones, all modes.
-    void find_accurately(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force,
-                         Index degree) {
-        find(coarse, configuration, force, degree, degree + 1, true);
+    void find_accurately(SceneType& scene, SceneType& coarse, const Point& point, Index degree) {
+        find(scene, coarse, point, degree, true);
     }
 
-    /// 2n x n, once found.
-    Matrix<S> at_nodes(Index n) const {
-        const auto up = SeriesTransfer<S>::between(degree_, n - 1);
-        const auto down = SeriesTransfer<S>::between(n - 1, degree_);
-        const Matrix<S> by_node = change_ * down->amplitudes.topRows(change_.cols());
-        Matrix<S> result(2 * n, n);
-        result << up->odd * by_node.topRows(degree_ + 1), up->even * by_node.bottomRows(degree_ + 1);
+    /// At all nodes of a point, r and z stacked for each body, by its unknowns.
+    Matrix<S> at_nodes(const SceneType& scene, const Point& point) const {
+        const StationaryLayout layout(scene, point.bodies);
+        Matrix<S> by_unknown = Matrix<S>::Zero(change_.rows(), layout.all());
+        Index mode = 0;
+        for (std::size_t b = 0; b < point.bodies.size(); ++b) {
+            const Index begin = layout.unknowns[b];
+            const Index n = layout.unknowns[b + 1] - begin;
+            if (degrees_[b] > 0) {
+                const auto down = SeriesTransfer<S>::between(n - 1, degrees_[b]);
+                by_unknown.middleCols(begin, n) =
+                    change_.middleCols(mode, modes_[b]) * down->amplitudes.topRows(modes_[b]);
+            }
+            const Translation<S> along = translation(scene, point, b);
+            if (translations_.cols() > 0 && along.part.size() > 0) {
+                const Vector<S> missed =
+                    translations_.col(static_cast<Index>(b)) - by_unknown.middleCols(begin, n) * along.unknowns;
+                by_unknown.middleCols(begin, n) += missed * along.part.transpose();
+            }
+            mode += modes_[b];
+        }
+        Matrix<S> result(layout.all_velocities(), layout.all());
+        Index row = 0;
+        for (std::size_t b = 0; b < point.bodies.size(); ++b) {
+            const Index begin = 2 * layout.nodes[b];
+            const Index n = point.bodies[b].shape.nodes();
+            if (degrees_[b] > 0) {
+                const auto up = SeriesTransfer<S>::between(degrees_[b], n - 1);
+                const Index rows = degrees_[b] + 1;
+                result.middleRows(begin, n) = up->odd * by_unknown.middleRows(row, rows);
+                result.middleRows(begin + n, n) = up->even * by_unknown.middleRows(row + rows, rows);
+                row += 2 * rows;
+            } else {
+                result.middleRows(begin, 2 * n) = by_unknown.middleRows(row, 2 * n);
+                row += 2 * n;
+            }
+        }
         return result;
     }
 
   private:
-    void find(SceneType& coarse, const Configuration<S>& configuration, const Vector<S>& force, Index degree,
-              Index modes, bool central) {
+    /// G f + (what walls add) on displaced bodies.
+    class Velocity {
+      public:
+        Velocity(SceneType& scene, const State& bodies, const std::vector<Vector<S>>& forces)
+            : scene_(scene), layout_(scene, bodies), force_(layout_.all_velocities()) {
+            for (std::size_t b = 0; b < bodies.size(); ++b) {
+                force_.segment(2 * layout_.nodes[b], forces[b].size()) = forces[b];
+            }
+        }
+
+        Vector<S> operator()(const State& at) const { return (*this)(at, scene_.freeze(at)); }
+        Vector<S> operator()(const State& at, const typename SceneType::Frozen& frozen) const {
+            Vector<S> u = frozen.mobility * force_;
+            if constexpr (std::decay_t<decltype(scene_.wall())>::present) {
+                u += frozen.background;
+                for (std::size_t b = 0; b < at.size(); ++b) {
+                    const Vector<S> flow = undisturbed(scene_, b, at[b], frozen.bodies[b].surface);
+                    u.segment(2 * layout_.nodes[b], flow.size()) -= flow;
+                }
+            }
+            return u;
+        }
+
+      private:
+        SceneType& scene_;
+        StationaryLayout layout_;
+        Vector<S> force_;
+    };
+
+    /// Velocities, or forces, at the nodes of a body by those of its coarse meridian; of a rigid one, which has none,
+    /// as they are.
+    Vector<S> coarsened(std::size_t body, const Vector<S>& values) const {
+        if (degrees_[body] == 0) {
+            return values;
+        }
+        const Index n = values.size() / 2;
+        const auto down = SeriesTransfer<S>::between(n - 1, degrees_[body]);
+        return stacked<S>(down->odd * values.head(n), down->even * values.tail(n));
+    }
+
+    void find(SceneType& scene, SceneType& coarse, const Point& point, Index degree, bool accurately) {
         degree_ = degree;
-        const Index n = configuration.shape.nodes();
-        const auto down = SeriesTransfer<S>::between(n - 1, degree);
-        const Configuration<S> there{resampled(configuration.shape, degree), configuration.position, {}};
-        Vector<S> coarse_force(2 * (degree + 1));
-        coarse_force << down->odd * force.head(n), down->even * force.tail(n);
-        change_ = mobility_change(coarse, there, coarse_force, modes, coarse_difference_step<S>(), central);
+        degrees_.clear();
+        modes_.clear();
+        State there = point.bodies;
+        std::vector<Vector<S>> fine;
+        std::vector<Vector<S>> forces;
+        for (std::size_t b = 0; b < there.size(); ++b) {
+            const Index own = coarse.deforms(b) ? std::min(degree, there[b].shape.elements()) : 0;
+            degrees_.push_back(own);
+            modes_.push_back(accurately && own > 0 ? own + 1 : (3 * own) / 4);
+            if (own > 0) {
+                there[b].shape = resampled(point.bodies[b].shape, own);
+                there[b].tension.resize(0);
+            }
+            fine.push_back(point.instants[b].solution.force);
+            forces.push_back(coarsened(b, fine.back()));
+        }
+        shape_modes(coarse, there, forces, accurately);
+        translations_.resize(change_.rows(), 0);
+        if (there.size() > 1) {
+            translate(scene, point.bodies, fine);
+        }
+    }
+
+    /// One-sided or central: an assembly for each mode, or two.
+    void shape_modes(SceneType& scene, const State& bodies, const std::vector<Vector<S>>& forces, bool central) {
+        using std::cos;
+        const S step = coarse_difference_step<S>();
+        Point point;
+        point.bodies = bodies;
+        point.frozen = scene.freeze(bodies);
+        const StationaryLayout layout(scene, bodies);
+        const Velocity velocity(scene, bodies, forces);
+        const Vector<S> here = velocity(bodies, point.frozen);
+        Index modes = 0;
+        for (const Index own : modes_) {
+            modes += own;
+        }
+        change_.resize(layout.all_velocities(), modes);
+        Index column = 0;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            for (Index k = 0; k < modes_[b]; ++k, ++column) {
+                Vector<S> mode = Vector<S>::Zero(layout.all());
+                for (Index i = 0; i <= degrees_[b]; ++i) {
+                    mode[layout.unknowns[b] + i] =
+                        step * cos(pi_value<S>() * S(k * i % (2 * degrees_[b])) / S(degrees_[b]));
+                }
+                const auto moved = [&](const S& factor) {
+                    return velocity(displaced(scene, point, Vector<S>(factor * mode)));
+                };
+                if (central) {
+                    change_.col(column) = (moved(S(1)) - moved(S(-1))) / (2 * step);
+                } else {
+                    change_.col(column) = (moved(S(1)) - here) / step;
+                }
+            }
+        }
+    }
+
+    void translate(SceneType& scene, const State& bodies, const std::vector<Vector<S>>& forces) {
+        const StationaryLayout layout(scene, bodies);
+        const Velocity velocity(scene, bodies, forces);
+        const Films<S> films = scene.films(bodies);
+        translations_.resize(change_.rows(), static_cast<Index>(bodies.size()));
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const S step = S(0.01) * std::min(S(1), films.bodies[b].to_neighbour);
+            State moved = bodies;
+            moved[b].position += step;
+            Vector<S> change = velocity(moved);
+            moved[b].position -= 2 * step;
+            change -= velocity(moved);
+            Index row = 0;
+            for (std::size_t k = 0; k < bodies.size(); ++k) {
+                const Vector<S> own = coarsened(k, change.segment(2 * layout.nodes[k], 2 * bodies[k].shape.nodes()));
+                translations_.col(static_cast<Index>(b)).segment(row, own.size()) = own / (2 * step);
+                row += own.size();
+            }
+        }
     }
 
     Index degree_ = 0;
+    std::vector<Index> degrees_;  // 0 of rigid bodies
+    std::vector<Index> modes_;    // likewise
     Matrix<S> change_;
+    Matrix<S> translations_;  // of several bodies, each by itself
 };
 
-/// d(normal velocity relative to the centroid)/d(normal displacement) of u = u_inf + G (F + load + T gamma), D u = 0,
-/// or without T and D for a law without that constraint. The derivatives of F, T, D, of the load, of u_inf and of the
-/// normals are one-sided differences, without assemblies; that of G comes in `mobility_change`, 2n x n.
+/// d(velocity)/d(unknowns) of u = u_inf + G f at a point; f = F + load + T gamma with D u = 0 of an inextensible body,
+/// F + load of one without constraint, and the traction that makes a rigid one move as such. The derivatives of F, T,
+/// D, of the load, of u_inf and of the normals are one-sided differences, without assemblies; that of G comes from
+/// `mobility_change`.
 template <class SceneType>
-Matrix<typename SceneType::Scalar> velocity_jacobian(const SceneType& scene, const typename SceneType::Frozen& frozen,
-                                                     const Configuration<typename SceneType::Scalar>& configuration,
-                                                     const typename SceneType::InstantType& instant,
-                                                     const Matrix<typename SceneType::Scalar>& mobility_change) {
-    using std::sqrt;
+class VelocityJacobian {
     using S = typename SceneType::Scalar;
-    const auto& surface = frozen.bodies.front().surface;
-    const Index n = surface.size();
-    const Vector<S>& tension = instant.solution.tension;
-    const bool inextensible = tension.size() > 0;
-    const auto force_on = [&](const auto& at) {
-        Vector<S> force = elastic_force<S>(scene.law(), at);
-        if (inextensible) {
-            force += at.tension_force * tension;
+    using Surface = typename SceneType::Surface;
+    using Point = StationaryPoint<SceneType>;
+
+  public:
+    VelocityJacobian(const SceneType& scene, const Point& point, const MobilityChange<SceneType>& mobility_change)
+        : scene_(scene),
+          point_(point),
+          layout_(scene, point.bodies),
+          change_(mobility_change.at_nodes(scene, point)),
+          flow_change_(Matrix<S>::Zero(layout_.all_velocities(), layout_.all())),
+          force_change_(Matrix<S>::Zero(layout_.all_velocities(), layout_.all())),
+          local_(Matrix<S>::Zero(layout_.all(), layout_.all())),
+          first_speed_(Vector<S>::Zero(layout_.all())),
+          stretch_(point.bodies.size()) {}
+
+    Matrix<S> operator()() {
+        for (std::size_t b = 0; b < point_.bodies.size(); ++b) {
+            if (scene_.deforms(b)) {
+                differentiate(b);
+            } else {
+                translate(b);
+            }
         }
-        return force;
-    };
-    const Vector<S> force = force_on(surface) + frozen.bodies.front().load;
-    const Vector<S> flow = without_flux<S>(surface, scene.background_velocity(configuration));
-    Vector<S> motion = instant.solution.velocity;  // relative to the centroid: 0 in the stationary state
-    motion.tail(n).array() -= instant.velocity;
-    const Vector<S> normal = relative_normal_velocity<S>(surface, configuration.shape.z, motion).second;
-    const S step = sqrt(std::numeric_limits<S>::epsilon());
-    Matrix<S> force_change(2 * n, n);
-    Matrix<S> change(2 * n, n);
-    Matrix<S> stretch_change(inextensible ? surface.divergence.rows() : 0, n);
-    Matrix<S> jacobian(n, n);
-    Vector<S> stretch;
-    if (inextensible) {
-        stretch = surface.divergence * motion;
-    }
-    for (Index j = 0; j < n; ++j) {
-        Configuration<S> moved = configuration;
-        displace<S>(moved.shape, surface, step * Vector<S>::Unit(n, j));
-        const auto at = scene.discretization().surface(moved.shape, SurfaceParts::all);
-        force_change.col(j) = (force_on(at) + scene.normal_load(moved, at) - force) / step;
-        change.col(j) = (without_flux<S>(at, scene.background_velocity(moved)) - flow) / step;
-        if (inextensible) {
-            stretch_change.col(j) = (at.divergence * motion - stretch) / step;
-        }
-        jacobian.col(j) = (relative_normal_velocity<S>(at, moved.shape.z, motion).second - normal) / step;
-    }
-    const Matrix<S>& g = frozen.mobility;
-    change += g * force_change;
-    change += mobility_change;
-    if (inextensible) {
-        const Matrix<S> pull = g * surface.tension_force;
-        const Matrix<S> divergence_of_pull = surface.divergence * pull;
-        const Matrix<S> divergence_of_change = surface.divergence * change + stretch_change;
-        change -= pull * divergence_of_pull.partialPivLu().solve(divergence_of_change);
+        change_ += flow_change_;
+        change_ += point_.frozen.mobility * force_change_;
+        constrain();
+        return local_ + velocities();
     }
 
-    Matrix<S> normal_change =
-        surface.normal_r.asDiagonal() * change.topRows(n) + surface.normal_z.asDiagonal() * change.bottomRows(n);
-    const Vector<S> moment = surface.weight.cwiseProduct(configuration.shape.z);
-    normal_change -= (surface.normal_z * (moment.transpose() * normal_change / moment.dot(surface.normal_z))).eval();
-    return jacobian + normal_change;
-}
+  private:
+    Index rows(std::size_t b) const { return 2 * layout_.nodes[b]; }
+    Index nodes(std::size_t b) const { return point_.bodies[b].shape.nodes(); }
+    bool inextensible(std::size_t b) const { return point_.instants[b].solution.tension.size() > 0; }
+
+    static S step() {
+        using std::sqrt;
+        return sqrt(std::numeric_limits<S>::epsilon());
+    }
+
+    /// The part of the force density that goes with the shape at given tension.
+    Vector<S> force_on(std::size_t b, const Surface& at) const {
+        Vector<S> force = elastic_force<S>(scene_.law(b), at);
+        if (inextensible(b)) {
+            force += applied(at.tension_force, point_.instants[b].solution.tension);
+        }
+        return force;
+    }
+
+    void differentiate(std::size_t b) {
+        const Configuration<S>& body = point_.bodies[b];
+        const Surface& surface = point_.surface(b);
+        const Index n = nodes(b);
+        const Vector<S> force = force_on(b, surface) + point_.frozen.bodies[b].load;
+        const Vector<S> flow = undisturbed(scene_, b, body, surface);
+        // Relative to the first centroid: 0 in the stationary state.
+        Vector<S> motion = point_.instants[b].solution.velocity;
+        motion.tail(n).array() -= point_.instants.front().velocity;
+        const auto [speed, normal] = normal_motion(b, surface, body.shape.z, motion);
+        Vector<S> stretch;
+        if (inextensible(b)) {
+            stretch = applied(surface.divergence, motion);
+            stretch_[b] = Matrix<S>::Zero(stretch.size(), layout_.all());
+        }
+        for (Index j = 0; j < n; ++j) {
+            const Index column = layout_.unknowns[b] + j;
+            Configuration<S> moved = body;
+            displace<S>(moved.shape, surface, step() * Vector<S>::Unit(n, j));
+            const Surface at = scene_.discretization().surface(moved.shape, SurfaceParts::all);
+            force_change_.col(column).segment(rows(b), 2 * n) =
+                (force_on(b, at) + scene_.normal_load(moved, at) - force) / step();
+            flow_change_.col(column).segment(rows(b), 2 * n) = (undisturbed(scene_, b, moved, at) - flow) / step();
+            if (inextensible(b)) {
+                stretch_[b].col(column) = (applied(at.divergence, motion) - stretch) / step();
+            }
+            const auto [moved_speed, moved_normal] = normal_motion(b, at, moved.shape.z, motion);
+            local_.col(column).segment(layout_.unknowns[b], n) = (moved_normal - normal) / step();
+            if (b == 0) {
+                first_speed_[column] = (moved_speed - speed) / step();
+            }
+        }
+        translate(b);
+    }
+
+    /// Of a translation nothing changes but the undisturbed flow at the nodes.
+    void translate(std::size_t b) {
+        const Translation<S> along = translation(scene_, point_, b);
+        if (along.part.size() == 0) {
+            return;
+        }
+        Configuration<S> moved = point_.bodies[b];
+        moved.position += step();
+        const Surface& surface = point_.surface(b);
+        const Index begin = layout_.unknowns[b];
+        const Index n = along.part.size();
+        const auto replace = [&](auto&& columns, const Vector<S>& wanted) {
+            const Vector<S> missed = wanted - columns * along.unknowns;
+            columns += missed * along.part.transpose();
+        };
+        replace(flow_change_.middleCols(begin, n).middleRows(rows(b), 2 * nodes(b)),
+                (undisturbed(scene_, b, moved, surface) - undisturbed(scene_, b, point_.bodies[b], surface)) / step());
+        if (scene_.deforms(b)) {
+            replace(force_change_.middleCols(begin, n), Vector<S>::Zero(force_change_.rows()));
+            replace(local_.middleCols(begin, n), Vector<S>::Zero(local_.rows()));
+        }
+        if (inextensible(b)) {
+            replace(stretch_[b].middleCols(begin, n), Vector<S>::Zero(stretch_[b].rows()));
+        }
+    }
+
+    /// Velocity of the centroid, and normal velocities; of the first body relative to it.
+    static std::pair<S, Vector<S>> normal_motion(std::size_t b, const Surface& surface, const Vector<S>& z,
+                                                 const Vector<S>& motion) {
+        auto [speed, normal] = relative_normal_velocity<S>(surface, z, motion);
+        if (b > 0) {
+            normal += speed * surface.normal_z;
+        }
+        return {speed, std::move(normal)};
+    }
+
+    /// Adds what the changes of tensions, and of rigid bodies' tractions, do to the velocities.
+    void constrain() {
+        struct Part {
+            Index begin, tension, speed;
+        };
+        std::vector<Part> parts;
+        Index count = 0;
+        for (std::size_t b = 0; b < point_.bodies.size(); ++b) {
+            Part part{count, -1, -1};
+            if (inextensible(b)) {
+                part.tension = count;
+                count += point_.surface(b).divergence.rows();
+            } else if (!scene_.deforms(b)) {
+                count += 2 * nodes(b);
+                if (moves_freely(b)) {
+                    part.speed = count++;
+                }
+            }
+            parts.push_back(part);
+        }
+        if (count == 0) {
+            return;
+        }
+        const Matrix<S>& g = point_.frozen.mobility;
+        Matrix<S> response = Matrix<S>::Zero(g.rows(), count);
+        for (std::size_t b = 0; b < parts.size(); ++b) {
+            const Matrix<S> columns = block_of(g, 0, rows(b), g.rows(), 2 * nodes(b));
+            if (inextensible(b)) {
+                set_columns(response, parts[b].tension, columns, point_.surface(b).tension_force);
+            } else if (!scene_.deforms(b)) {
+                set_block(response, 0, parts[b].begin, columns);
+            }
+        }
+        Matrix<S> matrix = Matrix<S>::Zero(count, count);
+        Matrix<S> rhs = Matrix<S>::Zero(count, layout_.all());
+        for (std::size_t b = 0; b < parts.size(); ++b) {
+            const Surface& surface = point_.surface(b);
+            const Index n = nodes(b);
+            const Matrix<S> own = block_of(response, rows(b), 0, 2 * n, count);
+            const Matrix<S> given = block_of(change_, rows(b), 0, 2 * n, layout_.all());
+            if (inextensible(b)) {
+                set_block(matrix, parts[b].tension, 0, applied(surface.divergence, own));
+                set_block(rhs, parts[b].tension, 0, Matrix<S>(-applied(surface.divergence, given) - stretch_[b]));
+            } else if (!scene_.deforms(b)) {
+                const Index begin = parts[b].begin;
+                set_block(matrix, begin, 0, own);
+                set_block(rhs, begin, 0, Matrix<S>(-given));
+                if (const Index speed = parts[b].speed; speed >= 0) {
+                    matrix.col(speed).segment(begin + n, n).setConstant(S(-1));
+                    matrix.row(speed).segment(begin + n, n) = surface.weight.transpose();
+                }
+                // As in the equations of motion.
+                for (const Index pole : {begin, begin + n - 1}) {
+                    matrix.row(pole).setZero();
+                    matrix(pole, pole) = S(1);
+                    rhs.row(pole).setZero();
+                }
+            }
+        }
+        change_ += response * matrix.partialPivLu().solve(rhs);
+    }
+
+    bool moves_freely(std::size_t b) const {
+        return LawKinds<std::decay_t<decltype(scene_.law())>>::visit(scene_.law(b), [](const auto& kind) {
+            if constexpr (std::decay_t<decltype(kind)>::constraint == Constraint::rigid) {
+                return !kind.velocity;
+            } else {
+                return true;
+            }
+        });
+    }
+
+    /// Of the centroids and normals, relative to the first centroid.
+    Matrix<S> velocities() const {
+        Matrix<S> result = Matrix<S>::Zero(layout_.all(), layout_.all());
+        Vector<S> first;
+        for (std::size_t b = 0; b < point_.bodies.size(); ++b) {
+            const Surface& surface = point_.surface(b);
+            const Index n = nodes(b);
+            Matrix<S> normal = surface.normal_r.asDiagonal() * change_.middleRows(rows(b), n);
+            normal += surface.normal_z.asDiagonal() * change_.middleRows(rows(b) + n, n);
+            const Vector<S> moment = surface.weight.cwiseProduct(point_.bodies[b].shape.z);
+            const Vector<S> speed = (moment.transpose() * normal / moment.dot(surface.normal_z)).transpose();
+            if (b == 0) {
+                first = speed;  // that by the shape is in the local part
+            } else if (b == 1) {
+                first += first_speed_;
+            }
+            if (scene_.deforms(b)) {
+                result.middleRows(layout_.unknowns[b], n) = normal - surface.normal_z * first.transpose();
+            } else {
+                result.row(layout_.unknowns[b]) = (speed - first).transpose();
+            }
+        }
+        return result;
+    }
+
+    const SceneType& scene_;
+    const Point& point_;
+    StationaryLayout layout_;
+    Matrix<S> change_;        // of the velocities at all nodes
+    Matrix<S> flow_change_;   // of the undisturbed ones, likewise
+    Matrix<S> force_change_;  // likewise
+    Matrix<S> local_;         // of normal velocities, the velocities themselves fixed
+    Vector<S> first_speed_;   // likewise of the first centroid
+    std::vector<Matrix<S>> stretch_;
+};
 
 }  // namespace axistokes::detail
