@@ -6,16 +6,14 @@
 
 int main() {
     using namespace axistokes;
-    using InCapillary = Simulator<TubeKernel<double>,      // Green function
-                                  LinearElements<double>,  // discretisation of the meridian
-                                  Vesicle<double>,         // membrane
-                                  Poiseuille<double>,      // what drives it
-                                  SemiImplicitEuler,       // time integrator
-                                  DenseLU<double>>;        // linear solver
-
-    const double tube_radius = 0.9;  // in R0, the radius of the sphere of equal volume
-    const auto shape = shape_in_tube<double>(1.59, tube_radius, SpheroidKind::prolate, 64);  // excess area, elements
-    InCapillary simulator(shape, Poiseuille<double>(100, tube_radius), {}, TubeKernel<double>(tube_radius));
+    const TubeKernel tube(0.9);  // Green function; the radius in R0, that of the sphere of equal volume
+    const Scene scene(tube,
+                      LinearElements(),         // discretisation of the meridian
+                      Vesicle(),                // law of the interface
+                      Poiseuille(100.0, tube),  // what drives it: bending capillary number
+                      DenseLU());               // linear solver
+    const auto shape = shape_in_tube(1.59, tube, SpheroidKind::prolate, 64);  // excess area, elements
+    Simulator simulator(scene, SemiImplicitEuler(), shape);
 
     const bool stationary = simulator.run();
 

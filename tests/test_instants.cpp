@@ -127,3 +127,25 @@ TEST_CASE("What happens deep inside a run is a failure of the simulation, not a 
     CHECK(test::failure([&] { scene.evaluate(Configuration<double>{beyond, 0.0, {}}, 0.0); }) != "nothing was thrown");
     CHECK(scene.fault({beyond, 0.0, {}}).find("crosses the wall") != std::string::npos);
 }
+
+TEST_CASE("The flow is that of the scene's tube, whose radius is given once") {
+    const TubeKernel tube(kRadius);
+    const Poiseuille flow(50.0, tube);
+    CHECK(flow.velocity({kRadius, 0.0}).z == 0);
+    CHECK(flow.velocity({kRadius / 2, 0.0}).z == Approx(37.5));
+    CHECK(Poiseuille(50.0, mesh()).velocity({kRadius, 0.0}).z == 0);
+    const auto shape = shape_in_tube(1.5, tube, SpheroidKind::prolate, 32);
+    CHECK((shape.z - shape_in_tube(1.5, kRadius, SpheroidKind::prolate, 32).z).norm() == 0);
+    const auto of_another = [](const auto& kernel, const auto& wall) {
+        return axistokes::test::refusal([&] {
+            Scene(kernel, LinearElements<double>(), Vesicle<double>(), Poiseuille<double>(50, 2 * kRadius),
+                  DenseLU<double>(), wall);
+        });
+    };
+    CHECK(axistokes::test::mentions(of_another(tube, NoWall()), "undisturbed velocity on the wall", "37.5", "0"));
+    CHECK(axistokes::test::mentions(of_another(FreeSpaceKernel<double>(), mesh()), "undisturbed velocity on the wall",
+                                    "37.5", "0"));
+    // Without walls it is any flow.
+    CHECK_NOTHROW(
+        Scene(FreeSpaceKernel<double>(), LinearElements<double>(), Vesicle<double>(), flow, DenseLU<double>()));
+}

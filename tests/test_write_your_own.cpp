@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The policies of docs/write_your_own.md, each against an exact result; the plane wall has test_plane_wall.cpp.
+#include "../examples/write_your_own/capsule.hpp"
 #include "../examples/write_your_own/drop.hpp"
 #include "../examples/write_your_own/explicit_midpoint.hpp"
 #include "../examples/write_your_own/full_pivot_lu.hpp"
@@ -7,11 +8,13 @@
 #include "../examples/write_your_own/uniaxial_extension.hpp"
 #include "catch.hpp"
 #include "support.hpp"
+#include <axistokes/accuracy/resolution.hpp>
 #include <axistokes/discretization/linear_elements.hpp>
 #include <axistokes/discretization/spectral_meridian.hpp>
 #include <axistokes/flow/gravity.hpp>
 #include <axistokes/flow/quiescent.hpp>
 #include <axistokes/flow/sum.hpp>
+#include <axistokes/geometry/shapes.hpp>
 #include <axistokes/kernel/free_space.hpp>
 #include <axistokes/membrane/rigid_body.hpp>
 #include <axistokes/membrane/vesicle.hpp>
@@ -19,8 +22,10 @@
 #include <axistokes/simulator.hpp>
 #include <axistokes/solver/dense.hpp>
 #include <axistokes/stationary/stationary_solver.hpp>
+#include <axistokes/time/extrapolated_euler.hpp>
 #include <axistokes/time/semi_implicit_euler.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -28,6 +33,7 @@ namespace {
 using namespace axistokes;
 using axistokes::test::pi;
 using axistokes::test::Spheroid;
+using write_your_own::Capsule;
 using write_your_own::Drop;
 using write_your_own::ExplicitMidpoint;
 using write_your_own::FullPivotLU;
@@ -205,4 +211,94 @@ TEST_CASE("your law: a drop in an extension, by marching and by Newton's method"
     INFO("beyond first order " << coarse << ' ' << fine);
     CHECK(std::abs(fine) < 5e-4);
     CHECK(axistokes::test::observed_order(coarse, fine) == Approx(2).margin(0.2));
+}
+
+namespace {
+
+/// A capsule marched to rest in an extension. G = 1, gamma = 1/2.
+template <class Discretization>
+auto capsule_at_rest(const Discretization& discretization, double rate, Index elements, double residual) {
+    SimulationParams<double> params;
+    params.tolerance = residual;
+    params.largest_time_step = 0.1;
+    const auto ball = nodes_of(
+        discretization, [](Index n) { return sphere<double>(n); }, elements);
+    Simulator march(Scene(FreeSpaceKernel<double>(), discretization, Capsule<double>(1, 0.5),
+                          UniaxialExtension<double>(rate), DenseLU<double>()),
+                    SecondOrder(), ball, params);
+    march.run();
+    return march;
+}
+
+/// A in r = 1 + A P2.
+template <class March>
+double amplitude(const March& march) {
+    const auto& shape = march.configuration().shape;
+    const double half_length = (shape.z[shape.elements()] - shape.z[0]) / 2;
+    return (half_length - march.scene().discretization().max_radius(shape)) / 1.5;
+}
+
+}  // namespace
+
+TEST_CASE("your law that remembers: a capsule's deformation in a weak extension", "[write_your_own]") {
+    const double exact = 25.0 / 6 / (1 + 11 * 0.5 / 6);
+    const auto mean_error = [&](const auto& discretization, Index elements) {
+        const double rate = 1e-3;
+        const auto stretched = capsule_at_rest(discretization, rate, elements, 1e-8);
+        const auto flattened = capsule_at_rest(discretization, -rate, elements, 1e-8);
+        REQUIRE(stretched.stationary());
+        REQUIRE(flattened.stationary());
+        // Terms of order E^2 have the same sign in both.
+        return std::abs((amplitude(stretched) - amplitude(flattened)) / (2 * rate * exact) - 1);
+    };
+    CHECK(mean_error(SpectralMeridian<double>(), 16) < 3e-5);
+    const double coarse = mean_error(LinearElements<double>(), 24);
+    const double fine = mean_error(LinearElements<double>(), 48);
+    CHECK(fine < 5e-3);
+    CHECK(std::log2(coarse / fine) > 1.8);
+}
+
+TEST_CASE("your law that remembers: moved nodes take the material along", "[write_your_own]") {
+    // In a strong flow; the nodes follow the material in one run, and are moved again and again in the other.
+    const auto compare = [](auto params, Index elements, double tolerance) {
+        using Discretization = typename decltype(params)::Discretization;
+        params.given.meshing.largest_distortion = 100;
+        const auto free = capsule_at_rest(Discretization(params.given), 0.1, elements, 1e-6);
+        params.given.meshing.largest_distortion = params.tight;
+        const auto moved = capsule_at_rest(Discretization(params.given), 0.1, elements, 1e-6);
+        const auto count = [](const auto& march) {
+            return std::count_if(march.history().begin(), march.history().end(),
+                                 [](const auto& record) { return record.redistributed; });
+        };
+        REQUIRE(free.stationary());
+        REQUIRE(moved.stationary());
+        CHECK(count(free) == 0);
+        CHECK(count(moved) >= 5);
+        CHECK(amplitude(free) > 0.15);
+        CHECK(amplitude(moved) == Approx(amplitude(free)).epsilon(tolerance));
+    };
+    struct Series {
+        using Discretization = SpectralMeridian<double>;
+        Discretization::Params given;
+        double tight = 1.002;
+    };
+    struct Elements {
+        using Discretization = LinearElements<double>;
+        Discretization::Params given;
+        double tight = 1.002;
+    };
+    compare(Series{}, 24, 1e-5);
+    compare(Elements{}, 64, 2e-3);
+}
+
+TEST_CASE("your law that remembers: more elements keep the shape and the material", "[write_your_own]") {
+    auto march = capsule_at_rest(SpectralMeridian<double>(), 0.1, 16, 1e-4);
+    const double before = amplitude(march);
+    march.refine(32);
+    CHECK(march.configuration().reference.nodes() == 33);
+    CHECK(amplitude(march) == Approx(before).epsilon(1e-6));
+    // At rest still: the material lies where it lay.
+    CHECK(march.scene().discretization().measures(march.configuration().reference).volume ==
+          Approx(4 * pi / 3).epsilon(1e-9));
+    CHECK(march.instant().deformation_rate < 2e-4);
 }

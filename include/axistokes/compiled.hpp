@@ -34,7 +34,8 @@ AXISTOKES_GEOMETRY double bending_energy(const Meridian<double>&);
 AXISTOKES_GEOMETRY bool restore_area_and_volume(Meridian<double>&, const double&, const double&, const double&);
 AXISTOKES_GEOMETRY bool restore_volume(Meridian<double>&, const double&, const double&);
 AXISTOKES_GEOMETRY double spacing_distortion(const Meridian<double>&, const NodeSpacing<double>&);
-AXISTOKES_GEOMETRY Meridian<double> redistribute(const Meridian<double>&, const NodeSpacing<double>&, Index);
+AXISTOKES_GEOMETRY Meridian<double> redistribute(const Meridian<double>&, const NodeSpacing<double>&, Index,
+                                                 Meridian<double>&);
 AXISTOKES_GEOMETRY double distance(const Meridian<double>&, const Meridian<double>&);
 AXISTOKES_GEOMETRY Meridian<double> spheroid(const double&, const double&, Index, const NodeSpacing<double>&);
 AXISTOKES_GEOMETRY Meridian<double> sphere(Index, const double&, const NodeSpacing<double>&);

@@ -5,6 +5,7 @@
 #include "core.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/meridian.hpp"
+#include "membrane/law.hpp"
 #include "quadrature/regular_quadrature.hpp"
 
 #include <concepts>
@@ -83,6 +84,17 @@ concept DiscretizationFor = GreenKernel<Kernel> && std::same_as<typename D::Scal
     { discretization.restore(shape, value, value) } -> std::convertible_to<bool>;
     { discretization.restore(shape, value) } -> std::convertible_to<bool>;
     { discretization.redistribute(shape) } -> std::convertible_to<bool>;
+};
+
+/// Whether a discretisation carries along what the law needs: its `redistribute(shape, carried)` and
+/// `redistributed(shape, elements, carried)` give another meridian on the same nodes (or an empty one) the new nodes
+/// too.
+template <class D, class Law>
+concept CarriesAlong = !detail::LawKinds<Law>::any_carries_reference ||
+                       requires(const D& discretization, Meridian<typename D::Scalar>& shape,
+                                Meridian<typename D::Scalar>& carried, Index elements) {
+    { discretization.redistribute(shape, carried) } -> std::convertible_to<bool>;
+    { discretization.redistributed(shape, elements, carried) } -> std::convertible_to<Meridian<typename D::Scalar>>;
 };
 
 /// Background: what drives the scene. `velocity(point)` is the undisturbed flow, `normal_load(point)` the normal force

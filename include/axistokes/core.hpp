@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <concepts>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
@@ -27,6 +28,12 @@ template <class S>
 struct Point {
     S r{};
     S z{};
+};
+
+/// A kernel with images, or a wall: it tells a point's distance from the wall, on the axis of a tube its radius.
+template <class T, class S>
+concept HasGap = requires(const T& wall, const Point<S>& point) {
+    { wall.gap(point) } -> std::convertible_to<S>;
 };
 
 /// The four entries of an axisymmetric Green function M_ab(x0, x): first index target velocity, second source force.

@@ -22,6 +22,8 @@ struct Configuration {
     Meridian<S> shape;
     S position{};       // axial coordinate of the centroid in the laboratory frame
     Vector<S> tension;  // empty before the first step
+    /// Where the nodes' material was at the start, of a law that carries its reference; else empty.
+    Meridian<S> reference{};
 };
 
 /// Everything known about one body at one instant. Velocities are in the laboratory frame.
@@ -116,7 +118,7 @@ bool meet(const Configuration<S>& below, const Configuration<S>& above) {
 template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class Law, Background Flow, LinearSolver Solver,
           WallFor<Kernel, Discretization> Wall = NoWall>
 requires UsesScalarOf<Law, Kernel> && UsesScalarOf<Flow, Kernel> && UsesScalarOf<Solver, Kernel> &&
-    LawsFor<Law, typename Discretization::Surface>
+    LawsFor<Law, typename Discretization::Surface> && CarriesAlong<Discretization, Law>
 class Scene {
   public:
     using Scalar = typename Kernel::Scalar;
@@ -128,13 +130,15 @@ class Scene {
     /// Whether there is a body whose shape can change.
     static constexpr bool deformable = detail::LawKinds<Law>::any_deformable;
     static constexpr bool confined = Kernel::has_images || Wall::present;
+    static constexpr bool carries_reference = detail::LawKinds<Law>::any_carries_reference;
 
     /// One law for all bodies.
     Scene(Kernel kernel, Discretization discretization, Law law, Flow flow, Solver solver, Wall wall = {})
         : Scene(std::move(kernel), std::move(discretization), std::vector<Law>{std::move(law)}, std::move(flow),
                 std::move(solver), std::move(wall)) {}
 
-    /// A law for each body. Throws InvalidArgument if there is none.
+    /// A law for each body. Throws InvalidArgument if there is none, or if the undisturbed flow does not vanish on the
+    /// wall: then it is that of another one.
     template <std::same_as<std::vector<Law>> Laws>
     Scene(Kernel kernel, Discretization discretization, Laws laws, Flow flow, Solver solver, Wall wall = {})
         : kernel_(std::move(kernel)),
@@ -145,6 +149,7 @@ class Scene {
           explicit_solver_(std::move(solver)),
           wall_(std::move(wall)) {
         detail::require(!laws_.empty(), "number of laws", laws_.size(), "at least 1");
+        require_rest_at_the_wall();
     }
 
     const Kernel& kernel() const { return kernel_; }
@@ -160,6 +165,7 @@ class Scene {
     /// A body's share of what an evaluation needs.
     struct FrozenBody {
         Surface surface;
+        Surface reference;  // of a law that carries one
         Vector<Scalar> load;
         Scalar shear_rate{};
     };
@@ -202,7 +208,8 @@ class Scene {
     Instants evaluate(const Frozen& frozen, const State& state, const Scalar& implicit_time) {
         std::vector<detail::EquationBody<Scalar, Surface, Law>> bodies;
         for (std::size_t b = 0; b < state.size(); ++b) {
-            bodies.push_back({law(b), frozen.bodies[b].surface, frozen.bodies[b].load, state[b].tension, {}});
+            const FrozenBody& body = frozen.bodies[b];
+            bodies.push_back({law(b), body.surface, body.load, state[b].tension, {}, &body.reference});
         }
         if constexpr (deformable) {
             add_slip(frozen, state, implicit_time, bodies);
@@ -243,6 +250,25 @@ class Scene {
         moment.instants = evaluate(moment.frozen, state, Scalar(0));
         moment.bodies = std::move(state);
         return moment;
+    }
+
+    /// `elements` elements on the same curve, with the material that the law carries.
+    Configuration<Scalar> redistributed(Configuration<Scalar> configuration, Index elements) const {
+        if constexpr (carries_reference) {
+            configuration.shape = discretization_.redistributed(configuration.shape, elements, configuration.reference);
+        } else {
+            configuration.shape = discretization_.redistributed(configuration.shape, elements);
+        }
+        configuration.tension.resize(0);
+        return configuration;
+    }
+    /// The same number of elements, if their spacing has become too uneven; true if they were moved.
+    bool redistribute(Configuration<Scalar>& configuration) const {
+        if constexpr (carries_reference) {
+            return discretization_.redistribute(configuration.shape, configuration.reference);
+        } else {
+            return discretization_.redistribute(configuration.shape);
+        }
     }
 
     /// A typical velocity of what drives the scene.
@@ -354,6 +380,25 @@ class Scene {
     }
 
   private:
+    /// On the wall of a tube or channel, about the middle of the axis.
+    void require_rest_at_the_wall() const {
+        using std::abs;
+        using std::isfinite;
+        constexpr bool channel = Wall::present || requires(Point<Scalar> x) {
+            kernel_.unit_flow(x);
+        };
+        if constexpr (channel && Flow::has_flow) {
+            const Scalar radius = gap({Scalar(0), Scalar(0)});
+            if (!(radius > Scalar(0)) || !isfinite(radius)) {
+                return;
+            }
+            const Point<Scalar> u = flow_.velocity({radius, Scalar(0)});
+            const Scalar speed = std::max<Scalar>(abs(u.r), abs(u.z));
+            const Scalar rounding = 1000 * std::numeric_limits<Scalar>::epsilon() * flow_.velocity_scale();
+            detail::require(speed <= rounding, "undisturbed velocity on the wall", speed, "0");
+        }
+    }
+
     /// For an implicit step of interfaces that flow along themselves: how, from the velocities at its start. In a
     /// stationary state of, say, a drop in a flow that part never stops.
     void add_slip(const Frozen& frozen, const State& state, const Scalar& implicit_time,
@@ -406,6 +451,11 @@ class Scene {
             body.surface =
                 discretization_.surface(configuration.shape, deforms(b) ? SurfaceParts::all : SurfaceParts::metric);
             body.load = normal_load(configuration, body.surface);
+            if constexpr (carries_reference) {
+                if (detail::is_carrying(law(b))) {
+                    body.reference = discretization_.surface(configuration.reference, SurfaceParts::metric);
+                }
+            }
             frozen.bodies.push_back(std::move(body));
             size += 2 * configuration.shape.nodes();
         }

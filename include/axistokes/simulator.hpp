@@ -91,7 +91,7 @@ template <GreenKernel Kernel, DiscretizationFor<Kernel> Discretization, class La
           LinearSolver Solver, WallFor<Kernel, Discretization> Wall = NoWall,
           StepControlFor<typename Kernel::Scalar> Control = StepControl<typename Kernel::Scalar>>
 requires UsesScalarOf<Law, Kernel> && UsesScalarOf<Flow, Kernel> && UsesScalarOf<Solver, Kernel> &&
-    LawsFor<Law, typename Discretization::Surface> &&
+    LawsFor<Law, typename Discretization::Surface> && CarriesAlong<Discretization, Law> &&
     TimeIntegratorFor<Integrator, Scene<Kernel, Discretization, Law, Flow, Solver, Wall>>
 class Simulator {
   public:
@@ -119,6 +119,9 @@ class Simulator {
             state.push_back({detail::shifted(shapes[b], Scalar(-measures.centroid)), measures.centroid, {}});
             measures_.push_back(measures);
             conserved_.emplace_back(measures, detail::keeps_area(scene_.law(b)));
+            if (detail::is_carrying(scene_.law(b))) {
+                state.back().reference = state.back().shape;
+            }
         }
         histories_.resize(shapes.size());
         films_ = scene_.films(state);
@@ -195,9 +198,7 @@ class Simulator {
     /// SimulationFailure, leaving the state as it was, if they cannot carry the shape.
     void refine(Index elements, std::size_t body = 0) {
         const Discretization& discretization = scene_.discretization();
-        Configuration<Scalar> refined = configuration(body);
-        refined.tension.resize(0);
-        refined.shape = discretization.redistributed(refined.shape, elements);
+        Configuration<Scalar> refined = scene_.redistributed(configuration(body), elements);
         std::string cause = scene_.fault(refined);
         if (cause.empty() && scene_.deforms(body)) {
             cause = conserved_[body].restore(discretization, refined.shape) ? scene_.fault(refined)
@@ -402,7 +403,7 @@ class Simulator {
                     throw SimulationFailure("area and volume drifted by " + detail::text(record.area_error) + " and " +
                                             detail::text(record.volume_error) + " and could not be restored");
                 }
-                record.redistributed = discretization.redistribute(next.shape);
+                record.redistributed = scene_.redistribute(next);
                 if (record.redistributed && !kept.restore(discretization, next.shape)) {
                     throw SimulationFailure(
                         "area and volume could not be restored after the nodes were moved along the membrane, for "

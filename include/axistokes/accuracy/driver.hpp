@@ -59,7 +59,7 @@ struct UsualSolver {
     using type = void;
 };
 template <class SceneType>
-requires(SceneType::deformable) struct UsualSolver<SceneType> {
+requires(SceneType::deformable && !SceneType::carries_reference) struct UsualSolver<SceneType> {
     using type = StationarySolver<SceneType>;
 };
 
@@ -406,7 +406,7 @@ class Driver {
         auto state = simulator_->state();
         for (auto& body : state) {
             const Index n = body.shape.elements();
-            body.shape = discretization().redistributed(body.shape, n + std::max<Index>(4, n / 4));
+            body = simulator_->scene().redistributed(body, n + std::max<Index>(4, n / 4));
         }
         try {
             auto scene = simulator_->scene();
@@ -848,8 +848,7 @@ class Driver {
                 }
             }
             if (next > now) {
-                bodies[b].shape = discretization().redistributed(bodies[b].shape, next);
-                bodies[b].tension.resize(0);
+                bodies[b] = simulator_->scene().redistributed(bodies[b], next);
             }
         }
         return bodies;
@@ -860,9 +859,7 @@ class Driver {
     S coarse_difference(Newton& solver, const Found& fine, const std::vector<Measures<S>>& measures) {
         State fewer = fine.bodies;
         for (auto& body : fewer) {
-            body.shape =
-                discretization().redistributed(body.shape, std::max(minimum_elements, (3 * body.shape.elements()) / 4));
-            body.tension.resize(0);
+            body = simulator_->scene().redistributed(body, std::max(minimum_elements, (3 * body.shape.elements()) / 4));
         }
         try {
             return S(largest_error(measured(solver.solve(fewer, measures)), measured(fine)));
@@ -882,8 +879,7 @@ class Driver {
         for (std::size_t b = 0; b < state.bodies.size(); ++b) {
             auto& body = state.bodies[b];
             if (spectral() && simulator_->scene().deforms(b) && body.shape.elements() > enough) {
-                body.shape = discretization().redistributed(body.shape, enough);
-                body.tension.resize(0);
+                body = simulator_->scene().redistributed(body, enough);
                 fewer = true;
             }
             elements = std::max(elements, body.shape.elements());

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "../geometry/meridian.hpp"
+#include "../geometry/stretches.hpp"
 #include "../operators.hpp"
 
 #include <cmath>
@@ -78,6 +79,14 @@ struct LinearSurface {
     }
     /// Surface divergence of a stacked nodal field, at the nodes.
     Vector<S> surface_divergence(const Vector<S>& field) const { return at_nodes(detail::applied(divergence, field)); }
+    /// Of the material that lay on `reference`, node by node.
+    Stretches<S> stretches(const LinearSurface& reference) const {
+        Vector<S> ratio(element_length.size());
+        for (Index e = 0; e < ratio.size(); ++e) {
+            ratio[e] = element_length[e] / reference.element_length[e];
+        }
+        return detail::stretches_of<S>(at_nodes(ratio), nodes.r, reference.nodes.r);
+    }
 };
 
 namespace detail {

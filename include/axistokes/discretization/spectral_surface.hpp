@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../geometry/meridian.hpp"
+#include "../geometry/stretches.hpp"
 #include "../geometry/trigonometric.hpp"
 #include "../operators.hpp"
 
@@ -57,6 +58,10 @@ struct SpectralSurface {
     }
     /// Surface divergence of a stacked nodal field, at the nodes.
     Vector<S> surface_divergence(const Vector<S>& field) const { return at_nodes(divergence * field); }
+    /// Of the material that lay on `reference`, node by node.
+    Stretches<S> stretches(const SpectralSurface& reference) const {
+        return detail::stretches_of<S>(speed.cwiseQuotient(reference.speed), nodes.r, reference.nodes.r);
+    }
 };
 
 /// Degree of the tension's series. The tension is the Lagrange multiplier of div_s u = 0: with one mode less than the

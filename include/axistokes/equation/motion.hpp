@@ -48,6 +48,7 @@ struct EquationBody {
     const Vector<S>& load;
     const Vector<S>& tension;
     Vector<S> slip{};
+    const Surface* reference = nullptr;  // of a law that carries one
 };
 
 /// Resistance of a sphere, which has no area to spare: its tension grows without bound against any deformation,
@@ -145,12 +146,12 @@ class MotionEquation {
                 p.speed = take(1);
             }
         } else {
-            p.elastic = law.force(surface);
+            p.elastic = force_of(law, surface, body.reference);
             p.given_force = p.elastic + body.load;
             constexpr bool inextensible = Kind::constraint == Constraint::inextensible;
             const bool saturated = inextensible && is_sphere(surface);
             if (time != S(0)) {
-                p.of_velocity = scaled(time, Operator(law.linearisation(surface, body.tension)));
+                p.of_velocity = scaled(time, linearisation_of(law, surface, body.reference, body.tension));
                 if (body.slip.size() > 0) {
                     p.given_force -= applied(p.of_velocity, body.slip);
                 }

@@ -23,6 +23,10 @@ class Poiseuille {
         detail::require(isfinite(capillary_number), "capillary number", capillary_number, "finite");
         detail::require(tube_radius > S(0) && isfinite(tube_radius), "tube radius", tube_radius, "> 0 and finite");
     }
+    /// In the tube of a kernel, or of a wall that is one.
+    template <HasGap<S> Tube>
+    Poiseuille(S capillary_number, const Tube& tube) : Poiseuille(capillary_number, S(tube.gap({S(0), S(0)}))) {}
+
     Point<S> velocity(const Point<S>& x) const {
         return {S(0), capillary_number_ * (tube_radius_ - x.r) * (tube_radius_ + x.r) / (tube_radius_ * tube_radius_)};
     }

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 
 namespace axistokes {
 
@@ -88,9 +91,11 @@ S spacing_distortion(const Meridian<S>& meridian, const NodeSpacing<S>& spacing)
 }
 
 /// `elements` elements on the same curve (its cubic spline), spaced as `spacing` asks for. The shape moves by
-/// O(h^4) at most. Throws InvalidArgument for fewer than 8 elements.
+/// O(h^4) at most. `carried`, if not empty, is another meridian on the same nodes: it gets the new ones too. Throws
+/// InvalidArgument for fewer than 8 elements.
 template <class S>
-Meridian<S> redistribute(const Meridian<S>& meridian, const NodeSpacing<S>& spacing, Index elements) {
+Meridian<S> redistribute(const Meridian<S>& meridian, const NodeSpacing<S>& spacing, Index elements,
+                         Meridian<S>& carried) {
     detail::require_elements(elements);
     const MeridianSpline<S> spline(meridian);
     const CubicSpline<S> density = detail::node_density(spline, spacing, elements);
@@ -98,9 +103,7 @@ Meridian<S> redistribute(const Meridian<S>& meridian, const NodeSpacing<S>& spac
     for (Index e = 0; e < density.elements(); ++e) {
         total += density.integral(e, S(1));
     }
-    Meridian<S> result{Vector<S>::Zero(elements + 1), Vector<S>::Zero(elements + 1)};
-    result.z[0] = meridian.z[0];
-    result.z[elements] = meridian.z[meridian.nodes() - 1];
+    std::vector<std::pair<Index, S>> places;  // an element and the local coordinate on it
     Index e = 0;
     S before = 0;
     for (Index i = 1; i < elements; ++i) {
@@ -116,11 +119,33 @@ Meridian<S> redistribute(const Meridian<S>& meridian, const NodeSpacing<S>& spac
             const S middle = (low + high) / 2;
             (before + density.integral(e, middle) < wanted ? low : high) = middle;
         }
-        const Point<S> p = spline.at(e, low).position;
-        result.r[i] = p.r;
-        result.z[i] = p.z;
+        places.emplace_back(e, low);
     }
-    return result;
+    const auto nodes_at = [&](const Meridian<S>& shape, const auto& point) {
+        Meridian<S> result{Vector<S>::Zero(elements + 1), Vector<S>(elements + 1)};
+        result.z[0] = shape.z[0];
+        result.z[elements] = shape.z[shape.nodes() - 1];
+        for (Index i = 1; i < elements; ++i) {
+            const auto& [element, x] = places[static_cast<std::size_t>(i - 1)];
+            const Point<S> p = point(element, x);
+            result.r[i] = p.r;
+            result.z[i] = p.z;
+        }
+        return result;
+    };
+    if (carried.z.size() > 0) {
+        const CubicSpline<S> r(spline.parameters(), carried.r, Parity::odd);
+        const CubicSpline<S> z(spline.parameters(), carried.z, Parity::even);
+        carried = nodes_at(carried, [&](Index element, const S& x) {
+            return Point<S>{r.value(element, x), z.value(element, x)};
+        });
+    }
+    return nodes_at(meridian, [&](Index element, const S& x) { return spline.at(element, x).position; });
+}
+template <class S>
+Meridian<S> redistribute(const Meridian<S>& meridian, const NodeSpacing<S>& spacing, Index elements) {
+    Meridian<S> nothing;
+    return redistribute(meridian, spacing, elements, nothing);
 }
 
 }  // namespace axistokes

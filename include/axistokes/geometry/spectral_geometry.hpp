@@ -199,30 +199,36 @@ class SpectralGeometry {
 
     /// Moves the nodes along the curve if their spacing has become too uneven; true if it did.
     bool redistribute(Meridian<S>& shape) const {
+        Meridian<S> nothing;
+        return redistribute(shape, nothing);
+    }
+    /// `carried`, if not empty, is another meridian on the same nodes: it gets the new ones too.
+    bool redistribute(Meridian<S>& shape, Meridian<S>& carried) const {
         if (!(distortion(shape) > meshing_.largest_distortion)) {
             return false;
         }
-        shape = redistributed(shape, shape.elements());
+        shape = redistributed(shape, shape.elements(), carried);
         return true;
     }
 
     /// `elements` + 1 nodes on the same curve, spaced as the parameters ask for. The curve changes by the part of it
     /// that the new series cannot represent. Throws InvalidArgument for fewer than 8 elements.
     Meridian<S> redistributed(const Meridian<S>& shape, Index elements) const {
+        Meridian<S> nothing;
+        return redistributed(shape, elements, nothing);
+    }
+    /// `carried`, if not empty, is another meridian on the same nodes: it gets the new ones too.
+    Meridian<S> redistributed(const Meridian<S>& shape, Index elements, Meridian<S>& carried) const {
         detail::require_elements(elements);
         const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
         const Vector<S> density = basis->even_coefficients() * node_density(shape);
-        const Vector<S> a = basis->even_coefficients() * shape.z;
-        const Vector<S> b = basis->odd_coefficients() * shape.r;
         // The new parameter is the integral of the density, tau(t) = t + sum_k g_k/(k g_0) sin kt.
         Vector<S> series = density / density[0];
         for (Index k = 1; k < series.size(); ++k) {
             series[k] /= S(k);
         }
         const S pi = detail::pi_value<S>();
-        Meridian<S> result{Vector<S>::Zero(elements + 1), Vector<S>(elements + 1)};
-        result.z[0] = shape.z[0];
-        result.z[elements] = shape.z[shape.elements()];
+        Vector<S> places(elements - 1);
         for (Index i = 1; i < elements; ++i) {
             const S wanted = pi * S(i) / S(elements);
             S low = 0;
@@ -231,16 +237,34 @@ class SpectralGeometry {
                 const S middle = (low + high) / 2;
                 (middle + detail::sine_series<S>(series, middle) < wanted ? low : high) = middle;
             }
-            result.r[i] = detail::sine_series<S>(b, low);
-            result.z[i] = detail::cosine_series<S>(a, low);
+            places[i - 1] = low;
         }
-        return result;
+        if (carried.z.size() > 0) {
+            carried = at(carried, places);
+        }
+        return at(shape, places);
     }
 
     /// The same series with `elements` + 1 nodes, cut off or continued by 0: the nodes keep their relative spacing.
     Meridian<S> resampled(const Meridian<S>& shape, Index elements) const { return detail::resampled(shape, elements); }
 
   private:
+    /// The poles of a meridian and, between them, its points at the parameters `places`.
+    static Meridian<S> at(const Meridian<S>& shape, const Vector<S>& places) {
+        const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
+        const Vector<S> a = basis->even_coefficients() * shape.z;
+        const Vector<S> b = basis->odd_coefficients() * shape.r;
+        const Index elements = places.size() + 1;
+        Meridian<S> result{Vector<S>::Zero(elements + 1), Vector<S>(elements + 1)};
+        result.z[0] = shape.z[0];
+        result.z[elements] = shape.z[shape.elements()];
+        for (Index i = 1; i < elements; ++i) {
+            result.r[i] = detail::sine_series<S>(b, places[i - 1]);
+            result.z[i] = detail::cosine_series<S>(a, places[i - 1]);
+        }
+        return result;
+    }
+
     /// Along the normals; false if that leads to infinity.
     static bool displace(Meridian<S>& shape, const SpectralCurve<S>& curve, const Vector<S>& distance) {
         const Vector<S> shift = distance.cwiseQuotient(curve.speed);

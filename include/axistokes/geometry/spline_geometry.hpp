@@ -76,17 +76,27 @@ class SplineGeometry {
 
     /// Moves the nodes along the curve if their spacing has become too uneven; true if it did.
     bool redistribute(Meridian<S>& shape) const {
+        Meridian<S> nothing;
+        return redistribute(shape, nothing);
+    }
+    /// `carried`, if not empty, is another meridian on the same nodes: it gets the new ones too.
+    bool redistribute(Meridian<S>& shape, Meridian<S>& carried) const {
         if (!(spacing_distortion(shape, meshing_.spacing) > meshing_.largest_distortion)) {
             return false;
         }
-        shape = redistributed(shape, shape.elements());
+        shape = redistributed(shape, shape.elements(), carried);
         return true;
     }
 
     /// `elements` elements on the same curve, spaced as the parameters ask for. Throws InvalidArgument for fewer
     /// than 8.
     Meridian<S> redistributed(const Meridian<S>& shape, Index elements) const {
-        return axistokes::redistribute(shape, meshing_.spacing, elements);
+        Meridian<S> nothing;
+        return redistributed(shape, elements, nothing);
+    }
+    /// `carried`, if not empty, is another meridian on the same nodes: it gets the new ones too.
+    Meridian<S> redistributed(const Meridian<S>& shape, Index elements, Meridian<S>& carried) const {
+        return axistokes::redistribute(shape, meshing_.spacing, elements, carried);
     }
 
   private:

@@ -80,5 +80,11 @@ Meridian<S> shape_in_tube(const S& excess_area, const S& tube_radius, SpheroidKi
     detail::require(narrowest < tube_radius, "tube radius", tube_radius, accepted.str().c_str());
     return wanted;
 }
+/// Likewise, in the tube of a kernel, or of a wall that is one.
+template <class S, HasGap<S> Tube>
+Meridian<S> shape_in_tube(const S& excess_area, const Tube& tube, SpheroidKind kind, Index elements,
+                          const NodeSpacing<S>& spacing = {}) {
+    return shape_in_tube<S>(excess_area, S(tube.gap({S(0), S(0)})), kind, elements, spacing);
+}
 
 }  // namespace axistokes

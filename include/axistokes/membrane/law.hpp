@@ -40,11 +40,27 @@ struct SomeDeformableLaw {
     template <class Surface>
     typename Surface::Operator linearisation(const Surface&, const Vector<S>&) const;
 };
+template <class S>
+struct SomeCarryingLaw {
+    using Scalar = S;
+    template <class Surface>
+    Vector<S> force(const Surface&, const Surface&) const;
+    template <class Surface>
+    typename Surface::Operator linearisation(const Surface&, const Surface&, const Vector<S>&) const;
+};
+
+/// Whether a law's force depends on where its material was at the start.
+template <class L>
+constexpr bool carries_reference = requires {
+    requires bool(L::carries_reference);
+};
 template <class L>
 using RigidOrSome = std::conditional_t<L::constraint == Constraint::rigid, L, SomeRigidLaw<typename L::Scalar>>;
 template <class L>
-using DeformableOrSome =
-    std::conditional_t<L::constraint == Constraint::rigid, SomeDeformableLaw<typename L::Scalar>, L>;
+using DeformableOrSome = std::conditional_t<L::constraint == Constraint::rigid || carries_reference<L>,
+                                            SomeDeformableLaw<typename L::Scalar>, L>;
+template <class L>
+using CarryingOrSome = std::conditional_t<carries_reference<L>, L, SomeCarryingLaw<typename L::Scalar>>;
 
 template <class L>
 concept RigidLaw = requires(const L& law) {
@@ -56,6 +72,13 @@ concept DeformableLaw = requires(const L& law, const Surface& surface, const Vec
     { L::conserves_area } -> std::convertible_to<bool>;
     { law.force(surface) } -> std::convertible_to<Vector<typename L::Scalar>>;
     { law.linearisation(surface, tension) } -> std::convertible_to<typename Surface::Operator>;
+};
+
+template <class L, class Surface>
+concept CarryingLaw = requires(const L& law, const Surface& surface, const Surface& reference,
+                               const Vector<typename L::Scalar>& tension) {
+    { law.force(surface, reference) } -> std::convertible_to<Vector<typename L::Scalar>>;
+    { law.linearisation(surface, reference, tension) } -> std::convertible_to<typename Surface::Operator>;
 };
 
 }  // namespace detail
@@ -70,9 +93,13 @@ concept DeformableLaw = requires(const L& law, const Surface& surface, const Vec
 /// steps
 ///   are stable; it need not be exact. `tension` is the constraint's, of the previous step, or empty;
 /// - `conserves_area`: whether the interface's area is a constant of the motion. Its volume always is.
+///
+/// Elastic laws say `carries_reference = true`: their nodes follow the material, and both functions are given its
+/// surface at the start, node by node, as a second argument: `force(surface, reference)`.
 template <class L, class Surface>
 concept LawFor = detail::NamedConstraint<L> && detail::RigidLaw<detail::RigidOrSome<L>> &&
-    detail::DeformableLaw<detail::DeformableOrSome<L>, Surface>;
+    detail::DeformableLaw<detail::DeformableOrSome<L>, Surface> &&
+    detail::CarryingLaw<detail::CarryingOrSome<L>, Surface>;
 
 /// A body of one of several kinds, chosen at run time: a scene of OneOf<Vesicle<>, RigidBody<>> holds both.
 template <class... Laws>
@@ -92,6 +119,7 @@ template <class L>
 struct LawKinds {
     static constexpr bool any_deformable = L::constraint != Constraint::rigid;
     static constexpr bool any_rigid = L::constraint == Constraint::rigid;
+    static constexpr bool any_carries_reference = carries_reference<L>;
 
     template <class Use>
     static decltype(auto) visit(const L& law, const Use& use) {
@@ -103,6 +131,7 @@ template <class... Laws>
 struct LawKinds<OneOf<Laws...>> {
     static constexpr bool any_deformable = (LawKinds<Laws>::any_deformable || ...);
     static constexpr bool any_rigid = (LawKinds<Laws>::any_rigid || ...);
+    static constexpr bool any_carries_reference = (LawKinds<Laws>::any_carries_reference || ...);
 
     template <class Use>
     static decltype(auto) visit(const OneOf<Laws...>& law, const Use& use) {
@@ -116,12 +145,39 @@ bool is_rigid(const L& law) {
         law, [](const auto& kind) { return std::decay_t<decltype(kind)>::constraint == Constraint::rigid; });
 }
 
-/// Whether an interface's nodes follow it along itself. Without a constraint they need not: they move along the
-/// normals.
+/// Whether an interface's nodes follow it along itself. Without a constraint or a reference they need not: they move
+/// along the normals.
 template <class L>
 bool nodes_follow(const L& law) {
-    return LawKinds<L>::visit(
-        law, [](const auto& kind) { return std::decay_t<decltype(kind)>::constraint != Constraint::none; });
+    return LawKinds<L>::visit(law, [](const auto& kind) {
+        using Kind = std::decay_t<decltype(kind)>;
+        return Kind::constraint != Constraint::none || carries_reference<Kind>;
+    });
+}
+
+/// Whether one body's law is one of them.
+template <class L>
+bool is_carrying(const L& law) {
+    return LawKinds<L>::visit(law, [](const auto& kind) { return carries_reference<std::decay_t<decltype(kind)>>; });
+}
+
+/// A deformable law's functions; `reference` is not null if the law carries one.
+template <class Kind, class Surface>
+auto force_of(const Kind& law, const Surface& surface, const Surface* reference) {
+    if constexpr (carries_reference<Kind>) {
+        return law.force(surface, *reference);
+    } else {
+        return law.force(surface);
+    }
+}
+template <class Kind, class Surface, class S>
+typename Surface::Operator linearisation_of(const Kind& law, const Surface& surface, const Surface* reference,
+                                            const Vector<S>& tension) {
+    if constexpr (carries_reference<Kind>) {
+        return law.linearisation(surface, *reference, tension);
+    } else {
+        return law.linearisation(surface, tension);
+    }
 }
 
 template <class L>
@@ -136,7 +192,7 @@ bool keeps_area(const L& law) {
     });
 }
 
-/// The law's force density on `surface`; none for a rigid body.
+/// The force density on `surface` of a law that carries no reference; none for a rigid body.
 template <class S, class L, class Surface>
 Vector<S> elastic_force(const L& law, const Surface& surface) {
     return LawKinds<L>::visit(law, [&](const auto& kind) -> Vector<S> {

@@ -58,9 +58,10 @@ struct StationaryState {
     const InstantType& instant(std::size_t body = 0) const { return instants.at(body); }
 };
 
-/// Finds and examines stationary states of a scene with deformable bodies, and rigid ones beside them.
+/// Finds and examines stationary states of a scene with deformable bodies, and rigid ones beside them. Not of laws that
+/// carry a reference: where their material ends along the curve only marching tells.
 template <class SceneType>
-requires(SceneType::deformable) class StationarySolver {
+requires(SceneType::deformable && !SceneType::carries_reference) class StationarySolver {
   public:
     using Scalar = typename SceneType::Scalar;
     using Frozen = typename SceneType::Frozen;
@@ -138,7 +139,7 @@ requires(SceneType::deformable) class StationarySolver {
             detail::MobilityChange<SceneType> change;
             change.find_accurately(scene_, accurate, point, degree);
             return detail::growth_rates<Scalar>(constraints,
-                                                detail::VelocityJacobian<SceneType>(scene_, point, change)());
+                                                detail::VelocityJacobian<SceneType>(scene_, point, change, true)());
         };
         const Index finest = most_elements(state.bodies);
         Index degree = std::min(coarsest_rates, finest);
@@ -146,7 +147,9 @@ requires(SceneType::deformable) class StationarySolver {
         for (Scalar change = 1; change > rates_accuracy() && degree < finest;) {
             degree = raised(degree, finest);
             auto finer = rates_with(degree);
-            change = std::abs(finer.front() - rates.front()) / std::abs(finer.front());
+            // Its real part tells whether the state is stable, however fast it oscillates.
+            const Scalar size = std::max<Scalar>(std::abs(finer.front().real()), std::abs(finer.front()) / 50);
+            change = std::abs(finer.front() - rates.front()) / size;
             rates = std::move(finer);
         }
         return rates;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -225,8 +226,8 @@ class MobilityChange {
 
 /// d(velocity)/d(unknowns) of u = u_inf + G f at a point; f = F + load + T gamma with D u = 0 of an inextensible body,
 /// F + load of one without constraint, and the traction that makes a rigid one move as such. The derivatives of F, T,
-/// D, of the load, of u_inf and of the normals are one-sided differences, without assemblies; that of G comes from
-/// `mobility_change`.
+/// D, of the load, of u_inf and of the normals are differences without assemblies, one-sided or, `accurately`, central
+/// ones: of the bending force, eps N^4 large, only these keep some digits. That of G comes from `mobility_change`.
 template <class SceneType>
 class VelocityJacobian {
     using S = typename SceneType::Scalar;
@@ -234,9 +235,11 @@ class VelocityJacobian {
     using Point = StationaryPoint<SceneType>;
 
   public:
-    VelocityJacobian(const SceneType& scene, const Point& point, const MobilityChange<SceneType>& mobility_change)
+    VelocityJacobian(const SceneType& scene, const Point& point, const MobilityChange<SceneType>& mobility_change,
+                     bool accurately = false)
         : scene_(scene),
           point_(point),
+          accurately_(accurately),
           layout_(scene, point.bodies),
           change_(mobility_change.at_nodes(scene, point)),
           flow_change_(Matrix<S>::Zero(layout_.all_velocities(), layout_.all())),
@@ -264,50 +267,66 @@ class VelocityJacobian {
     Index nodes(std::size_t b) const { return point_.bodies[b].shape.nodes(); }
     bool inextensible(std::size_t b) const { return point_.instants[b].solution.tension.size() > 0; }
 
-    static S step() {
-        using std::sqrt;
-        return sqrt(std::numeric_limits<S>::epsilon());
-    }
+    /// What of the velocity depends on one body's shape alone, the velocities and tensions fixed.
+    struct Local {
+        Vector<S> force;    // density, with the load
+        Vector<S> flow;     // undisturbed
+        Vector<S> stretch;  // rate, of an inextensible body
+        S speed;            // of the centroid
+        Vector<S> normal;   // velocities; of the first body relative to its centroid
 
-    /// The part of the force density that goes with the shape at given tension.
-    Vector<S> force_on(std::size_t b, const Surface& at) const {
-        Vector<S> force = elastic_force<S>(scene_.law(b), at);
-        if (inextensible(b)) {
-            force += applied(at.tension_force, point_.instants[b].solution.tension);
+        Vector<S> stacked() const {
+            Vector<S> all(force.size() + flow.size() + stretch.size() + normal.size() + 1);
+            all << force, flow, stretch, normal, speed;
+            return all;
         }
-        return force;
+    };
+
+    Local local(std::size_t b, const Configuration<S>& body, const Surface& surface, const Vector<S>& motion) const {
+        Local at;
+        at.force = elastic_force<S>(scene_.law(b), surface);
+        at.force += scene_.normal_load(body, surface);
+        if (inextensible(b)) {
+            at.force += applied(surface.tension_force, point_.instants[b].solution.tension);
+            at.stretch = applied(surface.divergence, motion);
+        }
+        at.flow = undisturbed(scene_, b, body, surface);
+        std::tie(at.speed, at.normal) = relative_normal_velocity<S>(surface, body.shape.z, motion);
+        if (b > 0) {
+            at.normal += at.speed * surface.normal_z;
+        }
+        return at;
     }
 
     void differentiate(std::size_t b) {
+        using std::cbrt;
+        using std::sqrt;
         const Configuration<S>& body = point_.bodies[b];
         const Surface& surface = point_.surface(b);
         const Index n = nodes(b);
-        const Vector<S> force = force_on(b, surface) + point_.frozen.bodies[b].load;
-        const Vector<S> flow = undisturbed(scene_, b, body, surface);
         // Relative to the first centroid: 0 in the stationary state.
         Vector<S> motion = point_.instants[b].solution.velocity;
         motion.tail(n).array() -= point_.instants.front().velocity;
-        const auto [speed, normal] = normal_motion(b, surface, body.shape.z, motion);
-        Vector<S> stretch;
-        if (inextensible(b)) {
-            stretch = applied(surface.divergence, motion);
-            stretch_[b] = Matrix<S>::Zero(stretch.size(), layout_.all());
-        }
+        const S eps = std::numeric_limits<S>::epsilon();
+        const S step = accurately_ ? S(cbrt(eps)) : S(sqrt(eps));
+        const auto moved = [&](Index j, const S& distance) {
+            Configuration<S> there = body;
+            displace<S>(there.shape, surface, distance * Vector<S>::Unit(n, j));
+            return local(b, there, scene_.discretization().surface(there.shape, SurfaceParts::all), motion).stacked();
+        };
+        const Local here = local(b, body, surface, motion);
+        const Vector<S> all = here.stacked();
+        stretch_[b] = Matrix<S>::Zero(here.stretch.size(), layout_.all());
         for (Index j = 0; j < n; ++j) {
             const Index column = layout_.unknowns[b] + j;
-            Configuration<S> moved = body;
-            displace<S>(moved.shape, surface, step() * Vector<S>::Unit(n, j));
-            const Surface at = scene_.discretization().surface(moved.shape, SurfaceParts::all);
-            force_change_.col(column).segment(rows(b), 2 * n) =
-                (force_on(b, at) + scene_.normal_load(moved, at) - force) / step();
-            flow_change_.col(column).segment(rows(b), 2 * n) = (undisturbed(scene_, b, moved, at) - flow) / step();
-            if (inextensible(b)) {
-                stretch_[b].col(column) = (applied(at.divergence, motion) - stretch) / step();
-            }
-            const auto [moved_speed, moved_normal] = normal_motion(b, at, moved.shape.z, motion);
-            local_.col(column).segment(layout_.unknowns[b], n) = (moved_normal - normal) / step();
+            const Vector<S> change = accurately_ ? Vector<S>((moved(j, step) - moved(j, -step)) / (2 * step))
+                                                 : Vector<S>((moved(j, step) - all) / step);
+            force_change_.col(column).segment(rows(b), 2 * n) = change.head(2 * n);
+            flow_change_.col(column).segment(rows(b), 2 * n) = change.segment(2 * n, 2 * n);
+            stretch_[b].col(column) = change.segment(4 * n, here.stretch.size());
+            local_.col(column).segment(layout_.unknowns[b], n) = change.segment(change.size() - 1 - n, n);
             if (b == 0) {
-                first_speed_[column] = (moved_speed - speed) / step();
+                first_speed_[column] = change[change.size() - 1];
             }
         }
         translate(b);
@@ -320,7 +339,10 @@ class VelocityJacobian {
             return;
         }
         Configuration<S> moved = point_.bodies[b];
-        moved.position += step();
+        const S step = coarse_difference_step<S>();
+        moved.position += step;
+        Configuration<S> back = point_.bodies[b];
+        back.position -= step;
         const Surface& surface = point_.surface(b);
         const Index begin = layout_.unknowns[b];
         const Index n = along.part.size();
@@ -329,7 +351,7 @@ class VelocityJacobian {
             columns += missed * along.part.transpose();
         };
         replace(flow_change_.middleCols(begin, n).middleRows(rows(b), 2 * nodes(b)),
-                (undisturbed(scene_, b, moved, surface) - undisturbed(scene_, b, point_.bodies[b], surface)) / step());
+                (undisturbed(scene_, b, moved, surface) - undisturbed(scene_, b, back, surface)) / (2 * step));
         if (scene_.deforms(b)) {
             replace(force_change_.middleCols(begin, n), Vector<S>::Zero(force_change_.rows()));
             replace(local_.middleCols(begin, n), Vector<S>::Zero(local_.rows()));
@@ -337,16 +359,6 @@ class VelocityJacobian {
         if (inextensible(b)) {
             replace(stretch_[b].middleCols(begin, n), Vector<S>::Zero(stretch_[b].rows()));
         }
-    }
-
-    /// Velocity of the centroid, and normal velocities; of the first body relative to it.
-    static std::pair<S, Vector<S>> normal_motion(std::size_t b, const Surface& surface, const Vector<S>& z,
-                                                 const Vector<S>& motion) {
-        auto [speed, normal] = relative_normal_velocity<S>(surface, z, motion);
-        if (b > 0) {
-            normal += speed * surface.normal_z;
-        }
-        return {speed, std::move(normal)};
     }
 
     /// Adds what the changes of tensions, and of rigid bodies' tractions, do to the velocities.
@@ -448,6 +460,7 @@ class VelocityJacobian {
 
     const SceneType& scene_;
     const Point& point_;
+    bool accurately_;
     StationaryLayout layout_;
     Matrix<S> change_;        // of the velocities at all nodes
     Matrix<S> flow_change_;   // of the undisturbed ones, likewise
