@@ -58,23 +58,17 @@ class LineRun {
         const InterruptGuard guard;
         ProgressBar bar;
         const double duration = run_.time.value_or(0);
+        Approach approach(run_.params().tolerance);
         Driver driver([&](axistokes::Index elements) { return simulation(elements); }, run_.driver_params(),
                       [&](const Simulation& s) {
                           std::ostringstream text;
                           text << "step " << s.history().size() << "  time " << s.time();
-                          bar.show(duration > 0 ? s.time() / duration : 1, text.str());
+                          bar.show(duration > 0 ? s.time() / duration : approach.fraction(s.residual()), text.str());
                           visit(s, duration);
                           return !guard.interrupted();
                       });
-        Ending ending;
-        try {
-            driver.run();
-        } catch (const axistokes::SimulationFailure& error) {
-            ending.failure = error.what();
-        }
+        const Ending ending = run_to_the_end(driver, begin);
         bar.hide();
-        ending.result = driver.result();
-        ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         return conclude(driver.simulation(), ending);
     }
 
@@ -147,12 +141,11 @@ class LineRun {
             }
             bodies.push_back(std::move(body));
         }
-        nlohmann::ordered_json summary{
-            {"bodies", bodies},
-            {"stationary", result.stationary},
-            {"time", simulation.time()},
-            {"steps", simulation.history().size()},
-            {"wall_seconds", ending.wall_seconds}};
+        nlohmann::ordered_json summary{{"bodies", bodies},
+                                       {"stationary", result.stationary},
+                                       {"time", simulation.time()},
+                                       {"steps", simulation.history().size()},
+                                       {"wall_seconds", ending.wall_seconds}};
         describe_ending(ending, summary);
         if (case_.surroundings.tube_radius && !result.instants.empty()) {
             summary["tube_radius"] = *case_.surroundings.tube_radius;

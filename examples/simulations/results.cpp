@@ -14,6 +14,18 @@
 
 namespace examples {
 
+Ending run_to_the_end(Driver& driver, std::chrono::steady_clock::time_point begin) {
+    Ending ending;
+    try {
+        driver.run();
+    } catch (const axistokes::SimulationFailure& failure) {
+        ending.failure = failure.what();
+    }
+    ending.result = driver.result();
+    ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return ending;
+}
+
 std::vector<axistokes::Column<double>> last_shape_columns(const axistokes::Configuration<double>& configuration,
                                                           const Simulation::InstantType* instant) {
     if (instant) {

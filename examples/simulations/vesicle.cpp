@@ -41,15 +41,8 @@ class VesicleRun {
                           observe(s, approach, bar);
                           return !guard.interrupted();
                       });
-        Ending ending;
-        try {
-            driver.run();
-        } catch (const axistokes::SimulationFailure& failure) {
-            ending.failure = failure.what();
-        }
+        const Ending ending = run_to_the_end(driver, begin);
         bar.hide();
-        ending.result = driver.result();
-        ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         return conclude(driver.simulation(), ending, run_, frames_.frames(), summary(driver.simulation(), ending));
     }
 

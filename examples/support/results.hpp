@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,15 @@ struct Ending {
     double wall_seconds = 0;
 };
 
+/// Runs; a failure of the simulation is part of the ending. `begin`: when what it took began.
+Ending run_to_the_end(Driver& driver, std::chrono::steady_clock::time_point begin);
+
 /// The last shape as a table. Without an instant (null: the shape may be the cause of a failure) at least the nodes.
 std::vector<axistokes::Column<double>> last_shape_columns(const axistokes::Configuration<double>& configuration,
                                                           const Simulation::InstantType* instant);
 
-/// Keys of how good a run's result is and how it ended. The estimate is null where there is none: the JSON format has no infinity.
+/// Keys of how good a run's result is and how it ended. The estimate is null where there is none: the JSON format has
+/// no infinity.
 void describe_ending(const Ending& ending, nlohmann::ordered_json& summary);
 
 /// Keys that every run of one body has.

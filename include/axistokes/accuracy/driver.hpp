@@ -703,6 +703,10 @@ class Driver {
             }
             handover = std::min(handover, simulator_->residual()) / 5;
         }
+        if (eager && simulator_->bodies() > 1) {
+            take();  // bodies that push each other apart never arrive by themselves
+            return;
+        }
         march_to_the_end();
     }
 

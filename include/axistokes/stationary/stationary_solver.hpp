@@ -144,8 +144,8 @@ requires(SceneType::deformable && !SceneType::carries_reference) class Stationar
         const Index finest = most_elements(state.bodies);
         Index degree = std::min(coarsest_rates, finest);
         auto rates = rates_with(degree);
-        for (Scalar change = 1; change > rates_accuracy() && degree < finest;) {
-            degree = raised(degree, finest);
+        for (Scalar change = rates_accuracy() * 2; change > rates_accuracy() && degree < finest;) {
+            degree = change > 10 * rates_accuracy() ? finest : raised(degree, finest);
             auto finer = rates_with(degree);
             // Its real part tells whether the state is stable, however fast it oscillates.
             const Scalar size = std::max<Scalar>(std::abs(finer.front().real()), std::abs(finer.front()) / 50);
