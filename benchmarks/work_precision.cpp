@@ -97,8 +97,8 @@ Outcome newton(const examples::Scene& scene, const Meridian<double>& start, doub
     examples::Newton solver(simulation.scene(), newton_params);
     const auto state =
         solver.solve(simulation.configuration().shape, simulation.initial_area(), simulation.initial_volume());
-    const auto& z = state.configuration.shape.z;
-    return {state.instant.velocity, z[z.size() - 1] - z[0],
+    const auto& z = state.configuration().shape.z;
+    return {state.instant().velocity, z[z.size() - 1] - z[0],
             static_cast<Index>(simulation.history().size()) + state.evaluations};
 }
 
