@@ -69,6 +69,9 @@ class LineRun {
                       });
         const Ending ending = run_to_the_end(driver, begin);
         bar.hide();
+        if (duration == 0 && !case_.spheres) {
+            keep(driver.simulation().time(), ending.result.bodies);
+        }
         return conclude(driver.simulation(), ending);
     }
 
@@ -98,11 +101,17 @@ class LineRun {
 
     void visit(const Simulation& simulation, double duration) {
         const double due = static_cast<double>(kept_) / static_cast<double>(case_.frames - 1) * duration;
-        if (kept_ >= case_.frames || simulation.time() < due * (1 - 1e-12)) {
+        const bool enough = kept_ >= (duration > 0 ? case_.frames : 1);
+        if (enough || simulation.time() < due * (1 - 1e-12)) {
             return;
         }
-        for (std::size_t b = 0; b < simulation.bodies(); ++b) {
-            frames_.add(simulation.time(), b, drawn_curve(discretization_, simulation.shape(b)));
+        keep(simulation.time(), simulation.state());
+    }
+
+    void keep(double time, const Scene::State& bodies) {
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const auto shape = axistokes::detail::shifted(bodies[b].shape, bodies[b].position);
+            frames_.add(time, b, drawn_curve(discretization_, shape));
         }
         frames_.next();
         ++kept_;
