@@ -56,9 +56,14 @@ class VesicleRun {
                           ? axistokes::resolved_nodes(discretization_, case_.initial, elements, share)
                           : axistokes::nodes_of(discretization_, case_.initial, elements);
         Shape exact = shape;
-        if (spectral && case_.excess_area > 0 &&
-            discretization_.restore(exact, 4 * std::numbers::pi + case_.excess_area, 4 * std::numbers::pi / 3)) {
+        const double area = 4 * std::numbers::pi + case_.excess_area;
+        if (spectral && case_.excess_area > 0 && discretization_.restore(exact, area, 4 * std::numbers::pi / 3)) {
             shape = std::move(exact);
+        }
+        const double off = discretization_.measures(shape).area / area - 1;
+        if (std::abs(off) > 0.05) {
+            throw axistokes::SimulationFailure("the initial shape's area is off by " + axistokes::detail::text(off) +
+                                               ": " + std::to_string(shape.elements()) + " elements cannot carry it");
         }
         Simulation simulation(Scene(kernel_for(case_.surroundings, run_.method), discretization_, Law(Vesicle()),
                                     case_.drive, Solver(), wall_for(case_.surroundings)),

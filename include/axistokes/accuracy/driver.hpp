@@ -493,10 +493,15 @@ class Driver {
         }
         return states;
     }
-    /// Nothing drives a body at rest: its velocity is no result.
     MeasuredState measured(const Configuration<S>& body, const S& velocity) const {
-        const bool driven = simulator_->scene().velocity_scale() > S(0);
-        return {driven ? double(velocity) : 0.0, length(body), body.shape.elements()};
+        return {measured_velocity(velocity), length(body), body.shape.elements()};
+    }
+    MeasuredState measured(const typename Simulator::Record& record) const {
+        return {measured_velocity(record.velocity), double(record.length), 0};
+    }
+    /// Nothing drives a body at rest: its velocity is no result.
+    double measured_velocity(const S& velocity) const {
+        return simulator_->scene().velocity_scale() > S(0) ? double(velocity) : 0.0;
     }
     static double largest_error(const std::vector<MeasuredState>& coarse, const std::vector<MeasuredState>& fine) {
         double error = 0;
@@ -546,20 +551,31 @@ class Driver {
         return largest;
     }
 
-    /// The rest of a geometric sequence of which the last ten steps are a part; infinite if there is no end to it.
+    /// The rest of a geometric sequence of which the last ten steps are a part. Infinite if there is no end to it.
     S settling_error(const std::vector<typename Simulator::Record>& history) const {
         if (!simulator_->stationary()) {
             return std::numeric_limits<S>::infinity();
         }
-        const auto& now = history.back();
-        const auto& before = history[history.size() - std::min<std::size_t>(history.size(), 11)];
-        const MeasuredState last{double(now.velocity), double(now.length), 0};
-        const MeasuredState earlier{double(before.velocity), double(before.length), 0};
-        const double ratio = std::min(0.9, double(now.residual / before.residual));
-        const bool driven = simulator_->scene().velocity_scale() > S(0);
-        const double change =
-            driven ? relative_difference(earlier, last) : std::abs(last.length - earlier.length) / last.length;
-        return S(change * ratio / (1 - ratio));
+        const std::size_t size = history.size();
+        const std::size_t back = std::min<std::size_t>(size - 1, 10);
+        const auto around = [&](std::size_t last) {
+            // Residuals oscillate: the largest of four.
+            double largest = 0;
+            for (std::size_t k = 0; k < 4 && k <= last; ++k) {
+                largest = std::max(largest, double(history[last - k].residual));
+            }
+            return largest;
+        };
+        const double late = around(size - 1);
+        const double early = around(size - 1 - back);
+        double change = 0;
+        for (std::size_t k = 1; k <= back; ++k) {
+            change = std::max(change, relative_difference(measured(history[size - 1 - k]), measured(history.back())));
+        }
+        if (change == 0) {
+            return S(0);
+        }
+        return late < early ? S(change * late / (early - late)) : std::numeric_limits<S>::infinity();
     }
 
     /// The sum of dt/2 times the change of the velocities, relative to the length.
@@ -876,6 +892,7 @@ class Driver {
     /// two a mode. An unstable state is no end of a march.
     template <class Newton, class Found>
     void examine(Newton& solver, const Found& given, const std::vector<Measures<S>>& measures) {
+        using std::abs;
         constexpr Index enough = 64;
         Found state = given;
         Index elements = 0;
@@ -898,6 +915,11 @@ class Driver {
         const S rate = solver.growth_rates(state).front().real();
         result_.growth_rate = rate;
         result_.stability_elements = elements;
+        const S scale = std::max(S(1), simulator_->scene().velocity_scale());
+        if (state.bodies.size() > 1 && abs(rate) < 10 * params_.newton_tolerance * scale) {
+            throw SimulationFailure("stationary state: the bodies hardly feel each other: a growth rate of " +
+                                    detail::text(rate) + " tells no distance");
+        }
         if (params_.way == WayToStationary::automatic && rate > S(0)) {
             throw SimulationFailure("stationary state: it is unstable, with a growth rate of " + detail::text(rate));
         }

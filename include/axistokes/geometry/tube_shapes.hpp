@@ -5,16 +5,19 @@
 #include "shapes.hpp"
 
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace axistokes {
 
 namespace detail {
 
 /// Semi-axes (a, c) of the superspheroid of exponent q with volume 4 pi/3 and area 4 pi + excess_area, longer than
-/// wide.
+/// wide; none if all of them have larger areas: the blunter they are, the farther from a sphere.
 template <class S>
-std::pair<S, S> superspheroid_of_excess_area(const S& excess_area, int q) {
+std::optional<std::pair<S, S>> superspheroid_of_excess_area(const S& excess_area, int q) {
+    using std::abs;
     using std::cbrt;
     using std::exp;
     const S pi = pi_value<S>();
@@ -35,8 +38,11 @@ std::pair<S, S> superspheroid_of_excess_area(const S& excess_area, int q) {
         const S middle = (low + high) / 2;
         (scaled_area(exp(middle)).first < 4 * pi + excess_area ? low : high) = middle;
     }
-    const S scale = scaled_area(exp(low)).second;
-    return {scale, scale * exp(low)};
+    const auto [area, scale] = scaled_area(exp(low));
+    if (!(abs(area / (4 * pi + excess_area) - S(1)) < S(1e-9))) {
+        return std::nullopt;
+    }
+    return std::pair<S, S>{scale, scale * exp(low)};
 }
 
 }  // namespace detail
@@ -57,20 +63,15 @@ Meridian<S> shape_in_tube(const S& excess_area, const S& tube_radius, SpheroidKi
     }
     // An oblate shape is turned into no other: which branch a vesicle ends on may depend on its initial shape.
     S narrowest = wanted.r.maxCoeff();
-    if (kind == SpheroidKind::prolate && excess_area > S(0)) {
-        constexpr int bluntest = 4;
-        for (int q = 2; q <= bluntest; ++q) {
-            const auto [a, c] = detail::superspheroid_of_excess_area<S>(excess_area, q);
-            narrowest = std::min(narrowest, a);
-            if (a <= widest || (q == bluntest && a < tube_radius)) {
-                const S radius = a;
-                const S half_length = c;
-                return detail::spaced_on_curve<S>(
-                    [&](const Vector<S>& angle) {
-                        return detail::superspheroid_points<S>(radius, half_length, q, angle);
-                    },
-                    elements, spacing);
-            }
+    int exponent = 1;  // the spheroid's
+    S half_length = 0;
+    constexpr int bluntest = 4;
+    for (int q = 2; q <= bluntest && kind == SpheroidKind::prolate && narrowest > widest; ++q) {
+        const auto axes = detail::superspheroid_of_excess_area<S>(excess_area, q);
+        if (axes && axes->first < narrowest) {
+            narrowest = axes->first;
+            half_length = axes->second;
+            exponent = q;
         }
     }
     std::ostringstream accepted;
@@ -78,7 +79,14 @@ Meridian<S> shape_in_tube(const S& excess_area, const S& tube_radius, SpheroidKi
              << (kind == SpheroidKind::prolate ? "a prolate shape" : "an oblate spheroid") << " of excess area "
              << excess_area;
     detail::require(narrowest < tube_radius, "tube radius", tube_radius, accepted.str().c_str());
-    return wanted;
+    if (exponent == 1) {
+        return wanted;
+    }
+    return detail::spaced_on_curve<S>(
+        [&](const Vector<S>& angle) {
+            return detail::superspheroid_points<S>(narrowest, half_length, exponent, angle);
+        },
+        elements, spacing);
 }
 /// Likewise, in the tube of a kernel, or of a wall that is one.
 template <class S, HasGap<S> Tube>
