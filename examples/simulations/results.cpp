@@ -153,6 +153,15 @@ void print(const nlohmann::ordered_json& summary, const std::string& directory) 
             std::cout << '\n';
         }
     }
+    if (!summary.value("error_met", true)) {
+        std::cout << "  the accuracy is not met"
+                  << (summary["error_estimate"].is_null() ? ", or there is no telling" : "") << '\n';
+    }
+    for (const char* failure : {"newton_failure", "refinement_failure"}) {
+        if (summary.contains(failure)) {
+            std::cout << "  " << failure << ": " << summary[failure].get<std::string>() << '\n';
+        }
+    }
     if (!directory.empty()) {
         std::cout << "written to " << directory << '\n';
     }

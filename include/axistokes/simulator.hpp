@@ -367,10 +367,14 @@ class Simulator {
                 // Its displacement relative to the centroid is rounding.
                 attempt.motion.segment(begin, 2 * n).setZero();
             }
+            const bool elastic = detail::is_carrying(scene_.law(b));
             for (Index i = 0; i < n && scene_.deforms(b); ++i) {
-                const Scalar normal = body.surface.normal_r[i] * attempt.motion[begin + i] +
-                                      body.surface.normal_z[i] * attempt.motion[begin + n + i];
-                report.displacement = abs(normal) <= report.displacement ? report.displacement : Scalar(abs(normal));
+                const Scalar along_r = attempt.motion[begin + i];
+                const Scalar along_z = attempt.motion[begin + n + i];
+                const Scalar normal = body.surface.normal_r[i] * along_r + body.surface.normal_z[i] * along_z;
+                // Material that moves along the interface stretches it.
+                const Scalar moved = elastic ? std::max<Scalar>(abs(along_r), abs(along_z)) : Scalar(abs(normal));
+                report.displacement = moved <= report.displacement ? report.displacement : moved;
             }
             report.shear_rate = std::max<Scalar>(
                 {report.shear_rate, body.shear_rate,

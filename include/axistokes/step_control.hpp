@@ -21,7 +21,8 @@ struct StepReport {
     std::optional<S> error;  // estimated, in R0
     int order = 1;
     bool deformable = true;
-    /// Largest normal displacement relative to the centroids, in R0.
+    /// Largest normal displacement relative to the centroids, in R0; of a law that carries a reference, the largest
+    /// one.
     S displacement{};
     /// Largest shear rate: of the undisturbed flow, or half of the velocity over the film.
     S shear_rate{};

@@ -696,7 +696,7 @@ class Driver {
     /// much closer to rest, unless it does not get there at all (a limit cycle).
     void find_stationary() {
         const bool eager = params_.way == WayToStationary::newton;
-        constexpr int attempts = 5;
+        const int attempts = simulator_->bodies() > 1 ? 3 : 5;
         constexpr Index least = 20;
         const Index patience = eager ? 40 : 150;
         S handover = eager ? S(3e-2) : S(2e-3);
@@ -720,7 +720,9 @@ class Driver {
             handover = std::min(handover, simulator_->residual()) / 5;
         }
         if (eager && simulator_->bodies() > 1) {
-            take();  // bodies that push each other apart never arrive by themselves
+            // Bodies that push each other apart never arrive by themselves.
+            take();
+            result_.stationary = false;
             return;
         }
         march_to_the_end();
@@ -762,11 +764,15 @@ class Driver {
             solver_params.coarse_start = !(simulator_->residual() <= 2 * near());
             Solver solver(simulator_->scene(), solver_params);
             const State start = centred();
+            const bool several = start.size() > 1;
             std::vector<Measures<S>> measures;
             for (std::size_t b = 0; b < start.size(); ++b) {
                 measures.push_back(initial_measures(b));
             }
             auto state = solver.solve(start, measures);
+            // From a coarser solution few iterations lead to the finer one, or none do.
+            solver_params.most_iterations = several ? 20 : solver_params.most_iterations;
+            Solver refining(simulator_->scene(), solver_params);
             if (!anywhere && far(state.bodies, start)) {
                 throw SimulationFailure("stationary state: the solution is not near the shape marched to");
             }
@@ -787,16 +793,17 @@ class Driver {
                 error += film_error();
                 adopt(state, error);
                 const bool last = error <= params_.eps || !adapts() || stopped_ || nothing_to_add(state.bodies);
-                // Growth rates need no more than a recognisable shape, and cost as much as many iterations.
-                if (!examined && (last || !spectral() || error < S(1e-3))) {
-                    examine(solver, state, measures);
+                // Growth rates need no more than a recognisable shape, and cost as much as many iterations. Those of
+                // distances need the most accurate state there is.
+                if (!examined && (last || (!several && (!spectral() || error < S(1e-3))))) {
+                    examine(solver, state, measures, error);
                     examined = true;
                 }
                 if (last) {
                     return;
                 }
                 try {
-                    auto finer = solver.solve(refined(state.bodies, needs, error), measures);
+                    auto finer = refining.solve(refined(state.bodies, needs, error), measures);
                     result_.newton_iterations += finer.iterations;
                     result_.newton_evaluations += finer.evaluations;
                     if (!spectral()) {
@@ -805,11 +812,17 @@ class Driver {
                     state = std::move(finer);
                 } catch (const SimulationFailure& failure) {
                     result_.refinement_failure = failure.what();
+                    if (!examined) {
+                        examine(solver, state, measures, error);
+                    }
                     return;
                 }
             }
         }
     }
+
+    /// Of Newton's method: the Jacobian of several bodies costs more.
+    Index most_in_newton() const { return simulator_->bodies() > 1 ? std::min<Index>(most(), 96) : most(); }
 
     /// The simulator's bodies, in the middle of the axis: a meshed wall is about there.
     State centred() const {
@@ -845,7 +858,7 @@ class Driver {
 
     bool nothing_to_add(const State& bodies) const {
         for (std::size_t b = 0; b < bodies.size(); ++b) {
-            if (simulator_->scene().deforms(b) && bodies[b].shape.elements() < most()) {
+            if (simulator_->scene().deforms(b) && bodies[b].shape.elements() < most_in_newton()) {
                 return false;
             }
         }
@@ -867,6 +880,7 @@ class Driver {
                     next = std::max(next, more_modes(now, share, double(params_.unresolved), most()));
                 }
             }
+            next = std::min(next, std::max(now, most_in_newton()));
             if (next > now) {
                 bodies[b] = simulator_->scene().redistributed(bodies[b], next);
             }
@@ -891,8 +905,12 @@ class Driver {
     /// Of a coarser state near this one if there are many modes: growth rates need no accuracy, and one evaluation or
     /// two a mode. An unstable state is no end of a march.
     template <class Newton, class Found>
-    void examine(Newton& solver, const Found& given, const std::vector<Measures<S>>& measures) {
+    void examine(Newton& solver, const Found& given, const std::vector<Measures<S>>& measures, const S& error) {
         using std::abs;
+        const bool several = given.bodies.size() > 1;
+        if (several && !(error < std::numeric_limits<S>::infinity())) {
+            throw SimulationFailure("stationary state: the films between the bodies are not resolved");
+        }
         constexpr Index enough = 64;
         Found state = given;
         Index elements = 0;
@@ -915,10 +933,13 @@ class Driver {
         const S rate = solver.growth_rates(state).front().real();
         result_.growth_rate = rate;
         result_.stability_elements = elements;
+        // The error of a distance is that of the velocities over the rate at which they change with it.
         const S scale = std::max(S(1), simulator_->scene().velocity_scale());
-        if (state.bodies.size() > 1 && abs(rate) < 10 * params_.newton_tolerance * scale) {
-            throw SimulationFailure("stationary state: the bodies hardly feel each other: a growth rate of " +
-                                    detail::text(rate) + " tells no distance");
+        const S velocity_error = error * abs(given.instants.front().velocity) + params_.newton_tolerance * scale;
+        if (several && abs(rate) < 5 * velocity_error) {
+            throw SimulationFailure("stationary state: it does not tell the bodies' distances, for the growth rate " +
+                                    detail::text(rate) + " is not large against the velocities' errors of " +
+                                    detail::text(velocity_error) + "; bodies closer, or a finer accuracy, may");
         }
         if (params_.way == WayToStationary::automatic && rate > S(0)) {
             throw SimulationFailure("stationary state: it is unstable, with a growth rate of " + detail::text(rate));

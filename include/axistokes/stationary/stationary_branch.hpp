@@ -18,7 +18,7 @@ namespace axistokes {
 /// matters). The unknowns are normal displacements of
 /// the nodes and multipliers of the constraints, which vanish.
 template <class SceneType>
-requires(SceneType::deformable && !SceneType::carries_reference) class StationaryBranch {
+requires(SceneType::deformable) class StationaryBranch {
   public:
     using Scalar = typename SceneType::Scalar;
     using Bodies = typename SceneType::State;

@@ -61,7 +61,10 @@ struct StationaryState {
 /// Finds and examines stationary states of a scene with deformable bodies, and rigid ones beside them. Not of laws that
 /// carry a reference: where their material ends along the curve only marching tells.
 template <class SceneType>
-requires(SceneType::deformable && !SceneType::carries_reference) class StationarySolver {
+requires(SceneType::deformable) class StationarySolver {
+    static_assert(!SceneType::carries_reference,
+                  "a law that carries a reference has no StationarySolver: march to its stationary states");
+
   public:
     using Scalar = typename SceneType::Scalar;
     using Frozen = typename SceneType::Frozen;
@@ -246,9 +249,15 @@ requires(SceneType::deformable && !SceneType::carries_reference) class Stationar
         Point point;
         point.bodies = bodies;
         redistribute(scene, point.bodies);
+        for (std::size_t b = 0; b + 1 < bodies.size(); ++b) {
+            if (detail::meet(bodies[b], bodies[b + 1])) {
+                throw SimulationFailure("stationary state: bodies " + std::to_string(b) + " and " +
+                                        std::to_string(b + 1) +
+                                        " meet at the start, or are not in the order in which they lie along the axis");
+            }
+        }
         if (!detail::settle(scene, point.bodies, conserved)) {
-            throw SimulationFailure(
-                "stationary state: the first shapes meet, or cannot be given their areas and volumes");
+            throw SimulationFailure("stationary state: the first shapes cannot be given their areas and volumes");
         }
         detail::evaluate(scene, point);
         ++state.evaluations;
@@ -292,7 +301,8 @@ requires(SceneType::deformable && !SceneType::carries_reference) class Stationar
                     break;
                 }
                 throw SimulationFailure("stationary state: the residual is " + detail::text(point.residual) +
-                                        " after " + std::to_string(params_.most_iterations) + " iterations");
+                                        " after " + std::to_string(params_.most_iterations) + " iterations, not " +
+                                        detail::text(tolerance));
             }
             ++state.iterations;
             if (jacobian.size() == 0) {
