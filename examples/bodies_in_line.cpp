@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
     unbounded.excludes("--confinement");
     app.number("--elements", c.run.elements,
                "elements, or modes, on each meridian (default: as many as the accuracy takes)");
-    app.number("--time", time, "how long to follow the bodies (default: vesicles 1, unless --stationary is given; spheres 0)");
+    app.number("--time", time,
+               "how long to follow the bodies (default: vesicles 1, unless --stationary is given; spheres 0)");
     app.number("--step-tolerance", c.run.step_tolerance, "error allowed in a time step, in R0");
     app.number("--max-steps", c.run.steps, "stop after this many steps");
     app.number("--frames", c.frames, "shapes kept in frames.csv, equally spaced in time");

@@ -6,9 +6,9 @@
 
 namespace write_your_own {
 
-/// Neo-Hookean membrane, unstressed at the start, on an interface of tension gamma. The tension in a principal direction
-/// is gamma + G/(l1 l2) (l^2 - 1/(l1 l2)^2), with the shear modulus G, the principal stretches l1 and l2, and l that of
-/// the direction.
+/// Neo-Hookean membrane, unstressed at the start, on an interface of tension gamma. The tension in a principal
+/// direction is gamma + G/(l1 l2) (l^2 - 1/(l1 l2)^2), with the shear modulus G, the principal stretches l1 and l2, and
+/// l that of the direction.
 template <class S = double>
 class Capsule {
   public:
