@@ -516,11 +516,7 @@ class Driver {
 
     void estimate_from_modes() {
         if constexpr (can_judge) {
-            S share = 0;
-            for (std::size_t b = 0; b < simulator_->bodies(); ++b) {
-                share = std::max<S>(share, discretization().unresolved(shape(b)));
-            }
-            result_.error_estimate = share / S(Accuracy<S>::unresolved_to_error) + time_error() + film_error();
+            result_.error_estimate = unresolved_error(simulator_->state()) + time_error() + film_error();
             if (any_rigid()) {
                 result_.error_estimate += finer_difference();
             }

@@ -127,7 +127,7 @@ requires(SceneType::deformable) class StationaryBranch {
         point.scene = std::make_shared<SceneType>(scene_(p));
         point.state.bodies = std::move(bodies);
         const std::vector<Measures<Scalar>> measures{{area_(p), volume_(p), Scalar(0)}};
-        if (!detail::settle(*point.scene, point.state.bodies, detail::conserved_in(*point.scene, measures))) {
+        if (!detail::settle(*point.scene, point.state.bodies, detail::conserved_in(*point.scene, measures)).empty()) {
             return std::nullopt;
         }
         detail::evaluate(*point.scene, point.state);

@@ -101,6 +101,15 @@ template <class S>
 struct Translation {
     Vector<S> part;
     Vector<S> unknowns;
+
+    bool exists() const { return part.size() > 0; }
+
+    /// Corrects a derivative's columns, those of the body's unknowns, such that a translation leads to `wanted`.
+    template <class Columns>
+    void set(Columns&& columns, const Vector<S>& wanted) const {
+        const Vector<S> missed = wanted - columns * unknowns;
+        columns += missed * part.transpose();
+    }
 };
 template <class SceneType>
 Translation<typename SceneType::Scalar> translation(const SceneType& scene, const StationaryPoint<SceneType>& point,
@@ -128,7 +137,7 @@ typename SceneType::State displaced(const SceneType& scene, const StationaryPoin
         const Index begin = layout.unknowns[b];
         Vector<S> own = unknowns.segment(begin, layout.unknowns[b + 1] - begin);
         const Translation<S> along = translation(scene, point, b);
-        if (along.part.size() > 0) {
+        if (along.exists()) {
             const S distance = along.part.dot(own);
             bodies[b].position += distance;
             own -= distance * along.unknowns;
@@ -140,20 +149,24 @@ typename SceneType::State displaced(const SceneType& scene, const StationaryPoin
     return bodies;
 }
 
-/// Restores what the bodies conserve, and puts the first one's centroid back where it was; false if a shape is
-/// unusable, or two bodies meet.
+/// Restores what the bodies conserve, and puts the first one's centroid back where it was. Why nothing can be computed
+/// on them; empty if something can.
 template <class SceneType, class S>
-bool settle(const SceneType& scene, std::vector<Configuration<S>>& bodies, const std::vector<Conserved<S>>& conserved) {
+std::string settle(const SceneType& scene, std::vector<Configuration<S>>& bodies,
+                   const std::vector<Conserved<S>>& conserved) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         Meridian<S>& shape = bodies[b].shape;
-        if (!scene.fault(bodies[b]).empty()) {
-            return false;
+        std::string cause = scene.fault(bodies[b]);
+        if (cause.empty() && scene.deforms(b)) {
+            cause = conserved[b].restore(scene.discretization(), shape)
+                        ? scene.fault(bodies[b])
+                        : "body " + std::to_string(b) + " cannot be given its area and volume";
+        }
+        if (!cause.empty()) {
+            return cause;
         }
         if (!scene.deforms(b)) {
             continue;
-        }
-        if (!conserved[b].restore(scene.discretization(), shape) || !scene.fault(bodies[b]).empty()) {
-            return false;
         }
         const S centroid = scene.discretization().measures(shape).centroid;
         shape.z.array() -= centroid;
@@ -163,10 +176,11 @@ bool settle(const SceneType& scene, std::vector<Configuration<S>>& bodies, const
     }
     for (std::size_t b = 0; b + 1 < bodies.size(); ++b) {
         if (meet(bodies[b], bodies[b + 1])) {
-            return false;
+            return "bodies " + std::to_string(b) + " and " + std::to_string(b + 1) +
+                   " meet, or are not in the order in which they lie along the axis";
         }
     }
-    return true;
+    return "";
 }
 
 }  // namespace axistokes::detail

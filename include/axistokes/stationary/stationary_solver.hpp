@@ -249,15 +249,8 @@ requires(SceneType::deformable) class StationarySolver {
         Point point;
         point.bodies = bodies;
         redistribute(scene, point.bodies);
-        for (std::size_t b = 0; b + 1 < bodies.size(); ++b) {
-            if (detail::meet(bodies[b], bodies[b + 1])) {
-                throw SimulationFailure("stationary state: bodies " + std::to_string(b) + " and " +
-                                        std::to_string(b + 1) +
-                                        " meet at the start, or are not in the order in which they lie along the axis");
-            }
-        }
-        if (!detail::settle(scene, point.bodies, conserved)) {
-            throw SimulationFailure("stationary state: the first shapes cannot be given their areas and volumes");
+        if (const std::string cause = detail::settle(scene, point.bodies, conserved); !cause.empty()) {
+            throw SimulationFailure("stationary state: at the start " + cause);
         }
         detail::evaluate(scene, point);
         ++state.evaluations;
@@ -315,7 +308,7 @@ requires(SceneType::deformable) class StationarySolver {
             }
             Point trial;
             trial.bodies = detail::displaced(scene, point, step);
-            const bool usable = detail::settle(scene, trial.bodies, conserved);
+            const bool usable = detail::settle(scene, trial.bodies, conserved).empty();
             bool moved = false;
             if (usable) {
                 moved = redistribute(scene, trial.bodies);

@@ -69,10 +69,8 @@ class MobilityChange {
                     change_.middleCols(mode, modes_[b]) * down->amplitudes.topRows(modes_[b]);
             }
             const Translation<S> along = translation(scene, point, b);
-            if (translations_.cols() > 0 && along.part.size() > 0) {
-                const Vector<S> missed =
-                    translations_.col(static_cast<Index>(b)) - by_unknown.middleCols(begin, n) * along.unknowns;
-                by_unknown.middleCols(begin, n) += missed * along.part.transpose();
+            if (translations_.cols() > 0 && along.exists()) {
+                along.set(by_unknown.middleCols(begin, n), translations_.col(static_cast<Index>(b)));
             }
             mode += modes_[b];
         }
@@ -335,7 +333,7 @@ class VelocityJacobian {
     /// Of a translation nothing changes but the undisturbed flow at the nodes.
     void translate(std::size_t b) {
         const Translation<S> along = translation(scene_, point_, b);
-        if (along.part.size() == 0) {
+        if (!along.exists()) {
             return;
         }
         Configuration<S> moved = point_.bodies[b];
@@ -346,18 +344,14 @@ class VelocityJacobian {
         const Surface& surface = point_.surface(b);
         const Index begin = layout_.unknowns[b];
         const Index n = along.part.size();
-        const auto replace = [&](auto&& columns, const Vector<S>& wanted) {
-            const Vector<S> missed = wanted - columns * along.unknowns;
-            columns += missed * along.part.transpose();
-        };
-        replace(flow_change_.middleCols(begin, n).middleRows(rows(b), 2 * nodes(b)),
-                (undisturbed(scene_, b, moved, surface) - undisturbed(scene_, b, back, surface)) / (2 * step));
+        along.set(flow_change_.middleCols(begin, n).middleRows(rows(b), 2 * nodes(b)),
+                  (undisturbed(scene_, b, moved, surface) - undisturbed(scene_, b, back, surface)) / (2 * step));
         if (scene_.deforms(b)) {
-            replace(force_change_.middleCols(begin, n), Vector<S>::Zero(force_change_.rows()));
-            replace(local_.middleCols(begin, n), Vector<S>::Zero(local_.rows()));
+            along.set(force_change_.middleCols(begin, n), Vector<S>::Zero(force_change_.rows()));
+            along.set(local_.middleCols(begin, n), Vector<S>::Zero(local_.rows()));
         }
         if (inextensible(b)) {
-            replace(stretch_[b].middleCols(begin, n), Vector<S>::Zero(stretch_[b].rows()));
+            along.set(stretch_[b].middleCols(begin, n), Vector<S>::Zero(stretch_[b].rows()));
         }
     }
 
