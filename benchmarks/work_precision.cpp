@@ -55,8 +55,8 @@ double kernel_tolerance(const AnyDiscretization& discretization) {
     return discretization.judges_itself() ? 1e-12 : 1e-8;
 }
 
-const AnyDiscretization linear = AnyDiscretization::of(false, std::nullopt);
-const AnyDiscretization spectral = AnyDiscretization::of(true, std::nullopt);
+const AnyDiscretization linear = AnyDiscretization::of(examples::DiscretizationKind::linear, std::nullopt);
+const AnyDiscretization spectral = AnyDiscretization::of(examples::DiscretizationKind::spectral, std::nullopt);
 
 /// Of a time step; Newton's method is none.
 ExtrapolatedEulerOfOrder integrator(Stepping stepping, double tolerance) {

@@ -30,7 +30,7 @@ double median_milliseconds(const Action& action) {
 }
 
 examples::AnyDiscretization elements_with(double tolerance) {
-    return examples::AnyDiscretization::of(false, tolerance);
+    return examples::AnyDiscretization::of(examples::DiscretizationKind::linear, tolerance);
 }
 
 /// A dumbbell with a thin neck: strands of the membrane face each other across the axis.

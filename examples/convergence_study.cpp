@@ -24,8 +24,9 @@ using namespace axistokes;
 examples::Simulation vesicle_in(const examples::Drive::Choice& flow, const Meridian<double>& shape) {
     SimulationParams<double> params;
     params.tolerance = 1e-7;
-    return examples::free_simulation(examples::AnyDiscretization::of(false, std::nullopt), examples::Vesicle(),
-                                     examples::Drive(flow), shape, params);
+    return examples::free_simulation(
+        examples::AnyDiscretization::of(examples::DiscretizationKind::linear, std::nullopt), examples::Vesicle(),
+        examples::Drive(flow), shape, params);
 }
 
 /// p of q(N) = q + c N^-p through three values, N increasing; NaN if they are not monotonic.

@@ -49,7 +49,7 @@ double excess_area(double reduced_volume) {
     return 4 * detail::pi_value<double>() * (std::pow(reduced_volume, -2.0 / 3) - 1);
 }
 
-const auto discretization = examples::AnyDiscretization::of(true, std::nullopt);
+const auto discretization = examples::AnyDiscretization::of(examples::DiscretizationKind::spectral, std::nullopt);
 
 examples::Scene scene_of(double confinement, double capillary_number) {
     examples::Surroundings tube;

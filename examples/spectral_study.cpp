@@ -30,7 +30,7 @@ Meridian<double> ellipse(double a, double c, Index n) {
 }
 
 examples::AnyDiscretization series() {
-    return examples::AnyDiscretization::of(true, std::nullopt);
+    return examples::AnyDiscretization::of(examples::DiscretizationKind::spectral, std::nullopt);
 }
 
 Vector<double> bending_force(Index n) {
@@ -111,7 +111,7 @@ void study(const std::string& directory) {
     for (const Index n : {8, 12, 16, 24, 32, 48, 64}) {
         stationary(vesicles, "Poiseuille", series(), flow, n);
     }
-    const auto elements = examples::AnyDiscretization::of(false, std::nullopt);
+    const auto elements = examples::AnyDiscretization::of(examples::DiscretizationKind::linear, std::nullopt);
     for (const Index n : {64, 128}) {
         stationary(vesicles, "settling P1", elements, gravity, n);
         stationary(vesicles, "Poiseuille P1", elements, flow, n);

@@ -68,9 +68,9 @@ int main(int argc, char** argv) {
         examples::BodyCase c{
             run,
             [](Index elements) { return sphere<double>(elements); },
-            wall.method == "filon"  ? 16
-            : run.method.spectral() ? 32
-                                    : 64,
+            wall.method == "filon"    ? 16
+            : run.method.high_order() ? 32
+                                      : 64,
             quadrature,
             dragged ? examples::Drive(Gravity<double>(4.5)) : examples::Drive(Poiseuille<double>(1, radius)),
             {},

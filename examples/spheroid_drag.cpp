@@ -83,10 +83,10 @@ int main(int argc, char** argv) {
         };
         examples::BodyCase c{run,
                              [&](Index elements) { return axistokes::spheroid_of_aspect<double>(aspect, elements); },
-                             run.method.spectral() ? 32 : 64,
-                             accuracy                ? accuracy->quadrature
-                             : run.method.spectral() ? 1e-10
-                                                     : 1e-6,
+                             run.method.high_order() ? 32 : 64,
+                             accuracy                  ? accuracy->quadrature
+                             : run.method.high_order() ? 1e-10
+                                                       : 1e-6,
                              examples::Drive(axistokes::Gravity<double>(1)),
                              {},
                              0,

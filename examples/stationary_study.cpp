@@ -53,8 +53,8 @@ StationaryParams<double> newton_params() {
     return params;
 }
 
-const auto series = examples::AnyDiscretization::of(true, std::nullopt);
-const auto elements = examples::AnyDiscretization::of(false, std::nullopt);
+const auto series = examples::AnyDiscretization::of(examples::DiscretizationKind::spectral, std::nullopt);
+const auto elements = examples::AnyDiscretization::of(examples::DiscretizationKind::linear, std::nullopt);
 
 void compare(examples::Report& table, const std::string& name, const examples::Drive& drive,
              const Meridian<double>& start, std::optional<double> tube_radius = {}) {

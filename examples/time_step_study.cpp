@@ -22,8 +22,8 @@ using namespace axistokes;
 
 using examples::AnyDiscretization;
 
-const AnyDiscretization elements = AnyDiscretization::of(false, std::nullopt);
-const AnyDiscretization series = AnyDiscretization::of(true, std::nullopt);
+const AnyDiscretization elements = AnyDiscretization::of(examples::DiscretizationKind::linear, std::nullopt);
+const AnyDiscretization series = AnyDiscretization::of(examples::DiscretizationKind::spectral, std::nullopt);
 
 template <class Integrator>
 using Relaxation = Simulator<examples::OptionalTubeKernel, AnyDiscretization, examples::Law, examples::Drive,

@@ -37,7 +37,7 @@ struct Options {
 };
 
 AnyDiscretization elements_with(double tolerance) {
-    return AnyDiscretization::of(false, tolerance);
+    return AnyDiscretization::of(examples::DiscretizationKind::linear, tolerance);
 }
 
 AnyDiscretization fine_elements() {
@@ -77,9 +77,9 @@ WallMeshParams<double> wall_of(double tolerance) {
 Meridian<double> settle(const Options& options) {
     SimulationParams<double> params;
     params.tolerance = options.settled;
-    examples::Simulation run(by_tube(options, AnyDiscretization::of(false, std::nullopt), std::nullopt),
-                             ExtrapolatedEulerOfOrder(1), options.tube.shape(options.vesicle, options.elements),
-                             params);
+    examples::Simulation run(
+        by_tube(options, AnyDiscretization::of(examples::DiscretizationKind::linear, std::nullopt), std::nullopt),
+        ExtrapolatedEulerOfOrder(1), options.tube.shape(options.vesicle, options.elements), params);
     examples::ProgressBar bar;
     examples::Approach approach(params.tolerance);
     run.run([&](const auto& record) {

@@ -2,6 +2,10 @@
 #include "../support/any_discretization.hpp"
 
 #include "../support/layers.hpp"
+#include <axistokes/accuracy/resolution.hpp>
+
+#include <limits>
+#include <type_traits>
 
 namespace examples {
 
@@ -16,13 +20,31 @@ AnyDiscretization made(std::optional<double> tolerance) {
 
 }  // namespace
 
-AnyDiscretization AnyDiscretization::of(bool spectral, std::optional<double> tolerance) {
-    return spectral ? made<Spectral>(tolerance) : made<Linear>(tolerance);
+AnyDiscretization AnyDiscretization::of(DiscretizationKind kind, std::optional<double> tolerance) {
+    return kind == DiscretizationKind::linear     ? made<Linear>(tolerance)
+           : kind == DiscretizationKind::spectral ? made<Spectral>(tolerance)
+                                                  : made<Adaptive>(tolerance);
 }
 
 double AnyDiscretization::unresolved(const Shape& shape) const {
-    const auto* spectral = std::get_if<Spectral>(&choice_);
-    return spectral ? spectral->unresolved(shape) : 0;
+    return std::visit(
+        [&](const auto& d) {
+            if constexpr (axistokes::JudgesItself<std::decay_t<decltype(d)>>) {
+                return d.unresolved(shape);
+            }
+            return 0.0;
+        },
+        choice_);
+}
+
+axistokes::Index AnyDiscretization::finer(axistokes::Index elements, double now, double wanted) const {
+    const auto most = std::numeric_limits<axistokes::Index>::max();
+    return std::visit([&](const auto& d) { return axistokes::more_elements_of(d, elements, now, wanted, most); },
+                      choice_);
+}
+
+axistokes::Index AnyDiscretization::most_elements() const {
+    return std::visit([](const auto& d) { return axistokes::most_elements(d); }, choice_);
 }
 
 AnyDiscretization AnyDiscretization::loosened(double tolerance) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "../support/any_discretization.hpp"
 
+#include <stdexcept>
+
 namespace examples {
 
 AnyOperator::Index AnyOperator::rows() const {
@@ -49,6 +51,33 @@ AnyOperator::Dense AnyOperator::apply_to_rows(const Dense& x) const {
     return std::visit([&](const auto& a) { return Dense(x * a); }, matrix_);
 }
 
+namespace {
+
+template <class Surface>
+axistokes::CurveSamples<double> curve_of(const Surface& surface) {
+    if constexpr (axistokes::DifferentiableSurface<Surface>) {
+        return surface.curve;
+    } else {
+        return {};
+    }
+}
+
+/// use(surface) of one that is differentiable.
+template <class Surfaces, class Use>
+auto of_differentiable(const Surfaces& surfaces, const Use& use) {
+    return std::visit(
+        [&](const auto& surface) -> decltype(use(*std::get<1>(surfaces))) {
+            if constexpr (axistokes::DifferentiableSurface<std::decay_t<decltype(*surface)>>) {
+                return use(*surface);
+            } else {
+                throw std::logic_error("elements have no derivatives");
+            }
+        },
+        surfaces);
+}
+
+}  // namespace
+
 template <class Surface>
 AnySurface::AnySurface(Surface surface)
     : nodes(surface.nodes),
@@ -64,10 +93,33 @@ AnySurface::AnySurface(Surface surface)
       mean_curvature_of(std::move(surface.mean_curvature_of)),
       divergence(std::move(surface.divergence)),
       tension_force(std::move(surface.tension_force)),
+      curve(curve_of(surface)),
       surface_(std::make_shared<const Surface>(std::move(surface))) {}
 
 template AnySurface::AnySurface(axistokes::LinearSurface<double>);
 template AnySurface::AnySurface(axistokes::SpectralSurface<double>);
+template AnySurface::AnySurface(axistokes::AdaptiveSurface<double>);
+
+AnyOperator AnySurface::change(const axistokes::NodalChange<double>& c) const {
+    return of_differentiable(surface_, [&](const auto& s) { return AnyOperator(s.change(c)); });
+}
+
+AnyOperator AnySurface::changes(const axistokes::NodalChange<double>& upper,
+                                const axistokes::NodalChange<double>& lower) const {
+    return of_differentiable(surface_, [&](const auto& s) { return AnyOperator(s.changes(upper, lower)); });
+}
+
+AnySurface::Vector AnySurface::slopes(const Vector& values) const {
+    return of_differentiable(surface_, [&](const auto& s) { return s.slopes(values); });
+}
+
+AnySurface::Vector AnySurface::second_slopes(const Vector& values) const {
+    return of_differentiable(surface_, [&](const auto& s) { return s.second_slopes(values); });
+}
+
+AnySurface::Vector AnySurface::tension_slopes(const Vector& tension) const {
+    return of_differentiable(surface_, [&](const auto& s) { return s.tension_slopes(tension); });
+}
 
 AnySurface::Vector AnySurface::normals() const {
     Vector n(2 * size());

@@ -13,7 +13,7 @@ int run_body(const BodyCase& c) {
         axistokes::create_output_directory(c.run.directory);
     }
     const auto begin = std::chrono::steady_clock::now();
-    const AnyDiscretization discretization = AnyDiscretization::of(c.run.method.spectral(), c.tolerance);
+    const AnyDiscretization discretization = AnyDiscretization::of(c.run.method.kind(), c.tolerance);
     const auto simulation = [&](Index elements) {
         return Simulation(Scene(kernel_for(c.surroundings, c.tolerance), discretization, Law(RigidBody()), c.drive,
                                 Solver(), wall_for(c.surroundings)),
@@ -29,7 +29,7 @@ int run_body(const BodyCase& c) {
     ending.result = driver.run();
     ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     nlohmann::ordered_json summary = summarize(driver.simulation(), ending);
-    summary["discretization"] = discretization.judges_itself() ? "spectral" : "linear";
+    summary["discretization"] = c.run.method.discretization_name();
     if (c.run.method.preset) {
         summary["preset_accuracy"] = *c.run.method.preset;
     }

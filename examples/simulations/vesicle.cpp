@@ -90,8 +90,23 @@ class VesicleRun {
         if (case_.surroundings.tube_radius) {
             summary.update(tube_summary(simulation, ending, case_.mean_velocity));
         }
+        if (case_.details) {
+            summary.update(case_.details(end(simulation, ending)));
+        }
         summary["parameters"] = case_.parameters;
         return summary;
+    }
+
+    static VesicleEnd end(const Simulation& simulation, const Ending& ending) {
+        VesicleEnd end{ending.result.configuration().shape, {}, {}, {}};
+        if (const auto* instant = ending.result.instant(); instant && instant->solution.tension.size() > 0) {
+            end.tension = instant->surface.at_nodes(instant->solution.tension);
+        }
+        for (const auto& record : simulation.history()) {
+            end.times.push_back(record.time);
+            end.lengths.push_back(record.length);
+        }
+        return end;
     }
 
     VesicleCase case_;

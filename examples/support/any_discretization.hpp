@@ -3,7 +3,9 @@
 // on the command line, and share what that takes to compile.
 #pragma once
 
+#include "method.hpp"
 #include "optional_tube.hpp"
+#include <axistokes/discretization/adaptive_meridian.hpp>
 #include <axistokes/discretization/linear_elements.hpp>
 #include <axistokes/discretization/spectral_meridian.hpp>
 
@@ -14,7 +16,7 @@
 
 namespace examples {
 
-/// A linear operator of a surface: sparse of elements, dense of series.
+/// A linear operator of a surface: sparse of elements and piecewise polynomials, dense of series.
 class AnyOperator {
   public:
     using Sparse = axistokes::LinearSurface<double>::Operator;
@@ -62,7 +64,7 @@ class AnyOperator {
     std::variant<Sparse, Dense> matrix_;
 };
 
-/// Surface of either discretisation: as LinearSurface and SpectralSurface, whose names these are.
+/// Surface of any of them, whose names these are.
 class AnySurface {
   public:
     using Operator = AnyOperator;
@@ -86,8 +88,15 @@ class AnySurface {
     Operator mean_curvature_of;
     Operator divergence;
     Operator tension_force;
+    axistokes::CurveSamples<double> curve;  // empty of elements
 
     Index size() const { return nodes.nodes(); }
+    bool differentiable() const { return curve.speed.size() > 0; }
+    Operator change(const axistokes::NodalChange<double>& c) const;
+    Operator changes(const axistokes::NodalChange<double>& upper, const axistokes::NodalChange<double>& lower) const;
+    Vector slopes(const Vector& values) const;
+    Vector second_slopes(const Vector& values) const;
+    Vector tension_slopes(const Vector& tension) const;
     Vector normals() const;
     Operator along_normal(const Operator& scalar) const;
     double flux(const Vector& field) const;
@@ -100,10 +109,12 @@ class AnySurface {
     template <class Surface>
     using Shared = std::shared_ptr<const Surface>;
 
-    std::variant<Shared<axistokes::LinearSurface<double>>, Shared<axistokes::SpectralSurface<double>>> surface_;
+    std::variant<Shared<axistokes::LinearSurface<double>>, Shared<axistokes::SpectralSurface<double>>,
+                 Shared<axistokes::AdaptiveSurface<double>>>
+        surface_;
 };
 
-/// P1 elements or series.
+/// One of them.
 class AnyDiscretization {
   public:
     using Scalar = double;
@@ -113,16 +124,21 @@ class AnyDiscretization {
     using Free = axistokes::FreeSpaceKernel<double>;
     using Linear = axistokes::LinearElements<double>;
     using Spectral = axistokes::SpectralMeridian<double>;
+    using Adaptive = axistokes::AdaptiveMeridian<double>;
 
     explicit AnyDiscretization(Linear linear) : choice_(std::move(linear)) {}
     explicit AnyDiscretization(Spectral spectral) : choice_(std::move(spectral)) {}
+    explicit AnyDiscretization(Adaptive adaptive) : choice_(std::move(adaptive)) {}
 
     /// With integrals of that tolerance, or of its own default.
-    static AnyDiscretization of(bool spectral, std::optional<double> tolerance);
+    static AnyDiscretization of(DiscretizationKind kind, std::optional<double> tolerance);
 
-    bool judges_itself() const { return std::holds_alternative<Spectral>(choice_); }
+    DiscretizationKind kind() const { return static_cast<DiscretizationKind>(choice_.index()); }
+    bool judges_itself() const { return kind() != DiscretizationKind::linear; }
     /// 0 of elements, which do not tell.
     double unresolved(const Shape& shape) const;
+    axistokes::Index finer(axistokes::Index elements, double now, double wanted) const;
+    axistokes::Index most_elements() const;
 
     AnyDiscretization loosened(double tolerance) const;
     Surface surface(const Shape& shape, axistokes::SurfaceParts parts = axistokes::SurfaceParts::all) const;
@@ -142,7 +158,7 @@ class AnyDiscretization {
     Shape redistributed(const Shape& shape, axistokes::Index elements) const;
 
   private:
-    std::variant<Linear, Spectral> choice_;
+    std::variant<Linear, Spectral, Adaptive> choice_;
 };
 
 }  // namespace examples

@@ -15,9 +15,14 @@ namespace examples {
 
 class CommandLine;
 
+/// The library's discretisations.
+enum class DiscretizationKind { linear, spectral, adaptive };
+
 struct MethodOptions {
     std::optional<std::string> discretization;
     std::optional<std::string> integrator;
+    /// Without --discretization.
+    std::string usual_discretization = "spectral";
     /// Without --integrator and --preset-accuracy.
     std::string usual_integrator = "euler";
     std::string stationary = "auto";
@@ -30,8 +35,8 @@ struct MethodOptions {
     void check() const {
         using axistokes::detail::require;
         if (discretization) {
-            require(*discretization == "linear" || *discretization == "spectral", "--discretization", *discretization,
-                    "linear or spectral");
+            require(*discretization == "linear" || *discretization == "spectral" || *discretization == "adaptive",
+                    "--discretization", *discretization, "linear, spectral or adaptive");
         }
         if (integrator) {
             require(*integrator == "euler" || *integrator == "order2" || *integrator == "order3" ||
@@ -46,7 +51,14 @@ struct MethodOptions {
         }
     }
 
-    bool spectral() const { return discretization.value_or("spectral") == "spectral"; }
+    std::string discretization_name() const { return discretization.value_or(usual_discretization); }
+    DiscretizationKind kind() const {
+        const std::string name = discretization_name();
+        return name == "linear"     ? DiscretizationKind::linear
+               : name == "spectral" ? DiscretizationKind::spectral
+                                    : DiscretizationKind::adaptive;
+    }
+    bool high_order() const { return kind() != DiscretizationKind::linear; }
     bool newton() const { return stationary == "newton"; }
     axistokes::WayToStationary way() const {
         return newton()                ? axistokes::WayToStationary::newton
@@ -69,7 +81,7 @@ struct MethodOptions {
     }
 
     void describe(nlohmann::ordered_json& summary) const {
-        summary["discretization"] = spectral() ? "spectral" : "linear";
+        summary["discretization"] = discretization_name();
         summary["integrator"] = integrator_name();
         if (preset) {
             summary["preset_accuracy"] = *preset;

@@ -31,4 +31,38 @@ inline std::optional<Neck> thinnest_neck(const axistokes::Meridian<double>& shap
     return thinnest;
 }
 
+/// The first place above the widest one that is thinner than its neighbours: where a tube leaves a body.
+inline std::optional<axistokes::Index> first_neck(const axistokes::Meridian<double>& shape) {
+    axistokes::Index widest = 0;
+    shape.r.maxCoeff(&widest);
+    for (axistokes::Index i = widest + 1; i + 1 < shape.nodes(); ++i) {
+        if (shape.r[i] <= shape.r[i - 1] && shape.r[i] < shape.r[i + 1]) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+/// How often, from node `from` on, the radius rises and falls again by a factor.
+inline axistokes::Index pearls_above(const axistokes::Meridian<double>& shape, axistokes::Index from, double factor) {
+    axistokes::Index count = 0;
+    double low = shape.r[from];
+    double high = shape.r[from];
+    bool rising = false;
+    for (axistokes::Index i = from; i + 1 < shape.nodes(); ++i) {
+        const double r = shape.r[i];
+        low = std::min(low, r);
+        high = std::max(high, r);
+        if (!rising && r > factor * low) {
+            rising = true;
+            high = r;
+        } else if (rising && r < high / factor) {
+            rising = false;
+            low = r;
+            ++count;
+        }
+    }
+    return count;
+}
+
 }  // namespace examples

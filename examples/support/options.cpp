@@ -10,7 +10,8 @@ namespace examples {
 
 void MethodOptions::add_to(CommandLine& app, bool rigid) {
     const std::string idle = rigid ? "; a rigid body takes one solution in any case" : "";
-    app.text("--discretization", discretization, "of the meridian: linear or spectral (default: spectral)");
+    app.text("--discretization", discretization,
+             "of the meridian: linear, spectral or adaptive (default: " + usual_discretization + ")");
     app.text("--integrator", integrator,
              std::string("euler, order2, order3, or adaptive: third order, and up to sixth for tight tolerances\n"
                          "(default: euler to a stationary state; adaptive where the way matters, and with\n"

@@ -66,9 +66,9 @@ struct RunOptions {
             driver.unresolved = accuracy->unresolved;
             driver.newton_tolerance = accuracy->residual;
             driver.to_round_off = true;
-            driver.first_elements = method.spectral() ? 16 : 32;
+            driver.first_elements = method.high_order() ? 16 : 32;
         } else {
-            driver.first_elements = method.spectral() ? 32 : 64;
+            driver.first_elements = method.high_order() ? 32 : 64;
         }
         driver.newton_tolerance = tolerance.value_or(driver.newton_tolerance);
         return driver;

@@ -30,7 +30,7 @@ using Simulation = axistokes::Simulator<OptionalTubeKernel, AnyDiscretization, L
 /// With integrals as accurate as a preset takes; without one the discretisation's own default.
 inline AnyDiscretization discretization_for(const MethodOptions& method) {
     const auto accuracy = method.accuracy();
-    return AnyDiscretization::of(method.spectral(), accuracy ? std::optional(accuracy->quadrature) : std::nullopt);
+    return AnyDiscretization::of(method.kind(), accuracy ? std::optional(accuracy->quadrature) : std::nullopt);
 }
 
 /// One body in free space.

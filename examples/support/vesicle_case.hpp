@@ -6,8 +6,17 @@
 #include "surroundings.hpp"
 
 #include <functional>
+#include <vector>
 
 namespace examples {
+
+/// Where a vesicle has come to, and its length on the way.
+struct VesicleEnd {
+    axistokes::Meridian<double> shape;
+    axistokes::Vector<double> tension;  // at the nodes; empty if unknown
+    std::vector<double> times;
+    std::vector<double> lengths;
+};
 
 struct VesicleCase {
     RunOptions run;
@@ -17,6 +26,8 @@ struct VesicleCase {
     Surroundings surroundings;
     double mean_velocity = 0;  // of the undisturbed flow in a tube
     nlohmann::ordered_json parameters;
+    /// More keys of the summary.
+    std::function<nlohmann::ordered_json(const VesicleEnd&)> details{};
 };
 
 int run_vesicle(const VesicleCase& c);

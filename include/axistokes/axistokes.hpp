@@ -4,6 +4,7 @@
 
 #include "accuracy.hpp"
 #include "accuracy/driver.hpp"
+#include "discretization/adaptive_meridian.hpp"
 #include "discretization/linear_elements.hpp"
 #include "discretization/spectral_meridian.hpp"
 #include "flow/background.hpp"

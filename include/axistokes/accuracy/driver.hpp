@@ -167,9 +167,9 @@ class Driver {
 
     void add_elements(std::size_t body) {
         if constexpr (can_judge && deformable) {
-            simulator_->refine(more_modes(shape(body).elements(), double(discretization().unresolved(shape(body))),
-                                          double(allowed()), most()),
-                               body);
+            const auto share = double(discretization().unresolved(shape(body)));
+            simulator_->refine(
+                more_elements_of(discretization(), shape(body).elements(), share, double(allowed()), most()), body);
         }
     }
 
@@ -873,7 +873,8 @@ class Driver {
             } else if constexpr (can_judge) {
                 const auto share = double(discretization().unresolved(bodies[b].shape));
                 if (bodies.size() == 1 || share > double(params_.unresolved)) {
-                    next = std::max(next, more_modes(now, share, double(params_.unresolved), most()));
+                    next = std::max(next,
+                                    more_elements_of(discretization(), now, share, double(params_.unresolved), most()));
                 }
             }
             next = std::min(next, std::max(now, most_in_newton()));

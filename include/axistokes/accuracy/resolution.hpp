@@ -37,6 +37,11 @@ template <class Discretization>
 constexpr Index first_elements = JudgesItself<Discretization> ? 16 : 32;
 template <class Discretization>
 Index most_elements(const Discretization& discretization) {
+    if constexpr (requires {
+                      { discretization.most_elements() } -> std::convertible_to<Index>;
+                  }) {
+        return discretization.most_elements();
+    }
     return judges_itself(discretization) ? 160 : 256;
 }
 
@@ -45,6 +50,18 @@ inline Index more_modes(Index elements, double now, double wanted, Index most) {
     const auto n = static_cast<double>(elements);
     const double needed = n * std::log(wanted / 3) / std::log(std::min(now, 0.5));
     return std::min(static_cast<Index>(std::ceil(std::clamp(needed, 1.2 * n, 1.6 * n))), most);
+}
+
+/// The same of a discretisation that knows better, by `finer(elements, now, wanted)`.
+template <class Discretization>
+Index more_elements_of(const Discretization& discretization, Index elements, double now, double wanted, Index most) {
+    using S = typename Discretization::Scalar;
+    if constexpr (requires {
+                      { discretization.finer(elements, S(now), S(wanted)) } -> std::convertible_to<Index>;
+                  }) {
+        return std::min(discretization.finer(elements, S(now), S(wanted)), most);
+    }
+    return more_modes(elements, now, wanted, most);
 }
 
 /// The next number of elements of second order that reduces an error to the one wanted.
@@ -123,7 +140,8 @@ Meridian<typename Discretization::Scalar> resolved_nodes(const Discretization& d
         for (auto share = static_cast<double>(discretization.unresolved(nodes));
              judges_itself(discretization) && share > wanted && nodes.elements() < most;
              share = static_cast<double>(discretization.unresolved(nodes))) {
-            nodes = nodes_of(discretization, shape, more_modes(nodes.elements(), share, wanted, most));
+            nodes = nodes_of(discretization, shape,
+                             more_elements_of(discretization, nodes.elements(), share, wanted, most));
         }
     }
     return nodes;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../geometry/meridian.hpp"
+#include "../geometry/shape_changes.hpp"
 #include "../geometry/stretches.hpp"
 #include "../geometry/trigonometric.hpp"
 #include "../operators.hpp"
@@ -20,7 +21,6 @@ struct SpectralSurface {
 
     Meridian<S> nodes;
     Vector<S> arc_length;       // at the nodes, from the lower pole
-    Vector<S> speed;            // |dx/dt|
     Vector<S> weight;           // quadrature weights of Int dA at the nodes
     Vector<S> volume_gradient;  // 2n: dV/dx of the volume inside the curve; the counterpart of weight * n
     Vector<S> normal_r;         // outward unit normal
@@ -35,6 +35,7 @@ struct SpectralSurface {
     Operator tension_force;      // tension at its nodes -> force density -2 gamma H n + grad_s gamma
     Operator tension_at_nodes;   // interpolation of the tension
 
+    CurveSamples<S> curve;  // at the nodes
     std::shared_ptr<const TrigonometricBasis<S>> basis;
 
     Index size() const { return nodes.nodes(); }
@@ -53,14 +54,40 @@ struct SpectralSurface {
     S area() const { return weight.sum(); }
     Vector<S> at_nodes(const Vector<S>& tension) const { return tension_at_nodes * tension; }
     /// Derivative along the meridian of nodal values; 0 at the poles.
-    Vector<S> surface_gradient(const Vector<S>& values) const {
-        return (basis->even_first() * values).cwiseQuotient(speed);
-    }
+    Vector<S> surface_gradient(const Vector<S>& values) const { return slopes(values).cwiseQuotient(curve.speed); }
     /// Surface divergence of a stacked nodal field, at the nodes.
     Vector<S> surface_divergence(const Vector<S>& field) const { return at_nodes(divergence * field); }
+    /// See DifferentiableSurface.
+    Operator change(const NodalChange<S>& c) const {
+        Operator result(size(), 2 * size());
+        set_change(result, 0, c);
+        return result;
+    }
+    Operator changes(const NodalChange<S>& upper, const NodalChange<S>& lower) const {
+        Operator result(2 * size(), 2 * size());
+        set_change(result, 0, upper);
+        set_change(result, size(), lower);
+        return result;
+    }
+    Vector<S> slopes(const Vector<S>& values) const { return basis->even_first() * values; }
+    Vector<S> second_slopes(const Vector<S>& values) const { return basis->even_second() * values; }
+    Vector<S> tension_slopes(const Vector<S>& tension) const { return slopes(at_nodes(tension)); }
+
     /// Of the material that lay on `reference`, node by node.
     Stretches<S> stretches(const SpectralSurface& reference) const {
-        return detail::stretches_of<S>(speed.cwiseQuotient(reference.speed), nodes.r, reference.nodes.r);
+        return detail::stretches_of<S>(curve.speed.cwiseQuotient(reference.curve.speed), nodes.r, reference.nodes.r);
+    }
+
+  private:
+    void set_change(Operator& to, Index row, const NodalChange<S>& c) const {
+        const Index n = size();
+        auto of_r = to.block(row, 0, n, n);
+        auto of_z = to.block(row, n, n, n);
+        of_r = c.r1.asDiagonal() * basis->odd_first();
+        of_r += c.r2.asDiagonal() * basis->odd_second();
+        of_r.diagonal() += c.r;
+        of_z = c.z1.asDiagonal() * basis->even_first();
+        of_z += c.z2.asDiagonal() * basis->even_second();
     }
 };
 
@@ -113,18 +140,21 @@ class SpectralSurfaceBuilder {
 
     void metric() {
         const Meridian<S>& m = s_.nodes;
-        r1_ = basis_->odd_first() * m.r;
-        z1_ = basis_->even_first() * m.z;
-        r2_ = basis_->odd_second() * m.r;
-        z2_ = basis_->even_second() * m.z;
-        s_.speed = (r1_.cwiseAbs2() + z1_.cwiseAbs2()).cwiseSqrt();
-        s_.normal_r = z1_.cwiseQuotient(s_.speed);
-        s_.normal_z = -r1_.cwiseQuotient(s_.speed);
+        CurveSamples<S>& x = s_.curve;
+        x.r = m.r;
+        x.z = m.z;
+        x.r1 = basis_->odd_first() * m.r;
+        x.z1 = basis_->even_first() * m.z;
+        x.r2 = basis_->odd_second() * m.r;
+        x.z2 = basis_->even_second() * m.z;
+        x.finish();
+        s_.normal_r = x.z1.cwiseQuotient(x.speed);
+        s_.normal_z = -x.r1.cwiseQuotient(x.speed);
         s_.normal_r[0] = s_.normal_r[n_ - 1] = 0;
         s_.normal_z[0] = -1;
         s_.normal_z[n_ - 1] = 1;
         // The integral of a cosine series, a_0 t + sum_k (a_k/k) sin kt.
-        Vector<S> integral = basis_->even_coefficients() * s_.speed;
+        Vector<S> integral = basis_->even_coefficients() * s_.curve.speed;
         for (Index k = 1; k < n_; ++k) {
             integral[k] /= S(k);
         }
@@ -136,8 +166,8 @@ class SpectralSurfaceBuilder {
         // dA = 2 pi r |x'| dt with r/sin t even; at a pole r/sin t is the slope |x'|.
         s_.weight.resize(n_);
         for (Index i = 0; i < n_; ++i) {
-            const S slope = pole(i) ? s_.speed[i] : S(m.r[i] / basis_->sine(i));
-            s_.weight[i] = 2 * pi_value<S>() * s_.speed[i] * slope * basis_->sine_weights()[i];
+            const S slope = pole(i) ? s_.curve.speed[i] : S(m.r[i] / basis_->sine(i));
+            s_.weight[i] = 2 * pi_value<S>() * s_.curve.speed[i] * slope * basis_->sine_weights()[i];
         }
     }
 
@@ -158,9 +188,12 @@ class SpectralSurfaceBuilder {
         Vector<S> second(n_);
         Vector<S> first(n_);
         for (Index i = 0; i < n_; ++i) {
-            const S v2 = s_.speed[i] * s_.speed[i];
+            const S v2 = s_.curve.speed[i] * s_.curve.speed[i];
             second[i] = S(pole(i) ? 2 : 1) / v2;
-            first[i] = pole(i) ? S(0) : S((r1_[i] / s_.nodes.r[i] - (r1_[i] * r2_[i] + z1_[i] * z2_[i]) / v2) / v2);
+            first[i] = pole(i) ? S(0)
+                               : S((s_.curve.r1[i] / s_.nodes.r[i] -
+                                    (s_.curve.r1[i] * s_.curve.r2[i] + s_.curve.z1[i] * s_.curve.z2[i]) / v2) /
+                                   v2);
         }
         s_.laplacian = second.asDiagonal() * basis_->even_second();
         s_.laplacian += first.asDiagonal() * basis_->even_first();
@@ -208,19 +241,18 @@ class SpectralSurfaceBuilder {
 
         const auto& at_nodes = space->tension_here;
         s_.tension_at_nodes = at_nodes.even;
-        const Vector<S> speed2 = s_.speed.cwiseAbs2();
+        const Vector<S> speed2 = s_.curve.speed.cwiseAbs2();
         const Vector<S> pull = -2 * s_.mean_curvature;
         s_.tension_force = s_.along_normal(pull.asDiagonal() * at_nodes.even);
-        s_.tension_force.topRows(n_) += r1_.cwiseQuotient(speed2).asDiagonal() * at_nodes.even_slope;
-        s_.tension_force.bottomRows(n_) += z1_.cwiseQuotient(speed2).asDiagonal() * at_nodes.even_slope;
+        s_.tension_force.topRows(n_) += s_.curve.r1.cwiseQuotient(speed2).asDiagonal() * at_nodes.even_slope;
+        s_.tension_force.bottomRows(n_) += s_.curve.z1.cwiseQuotient(speed2).asDiagonal() * at_nodes.even_slope;
         s_.element_area = at_nodes.even.transpose() * s_.weight;
     }
 
     std::shared_ptr<const TrigonometricBasis<S>> basis_;
     Index n_;
     SpectralSurface<S> s_;
-    Vector<S> r1_, z1_, r2_, z2_;  // derivatives with respect to t
-    Matrix<S> radial_laplacian_;   // of an odd series, as if it were a scalar
+    Matrix<S> radial_laplacian_;  // of an odd series, as if it were a scalar
 };
 
 }  // namespace detail

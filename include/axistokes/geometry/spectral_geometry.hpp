@@ -3,10 +3,9 @@
 // (docs/spectral.md, section 5).
 #pragma once
 
-#include "measures.hpp"
+#include "curve_samples.hpp"
 #include "meridian.hpp"
 #include "remesh.hpp"
-#include "restore.hpp"
 #include "series_transfer.hpp"
 #include "trigonometric.hpp"
 
@@ -29,49 +28,9 @@ struct SpectralMeshingParams {
     S largest_distortion = S(1.2);
 };
 
-/// A meridian and its derivatives with respect to t, at the nodes or at the points of a Sampling.
-template <class S>
-struct SpectralCurve {
-    Vector<S> r, z, r1, z1, r2, z2;
-    Vector<S> speed;
-
-    explicit SpectralCurve(const Meridian<S>& m) : SpectralCurve(m, *TrigonometricBasis<S>::of_degree(m.elements())) {}
-    SpectralCurve(const Meridian<S>& m, const TrigonometricBasis<S>& basis)
-        : r(m.r),
-          z(m.z),
-          r1(basis.odd_first() * m.r),
-          z1(basis.even_first() * m.z),
-          r2(basis.odd_second() * m.r),
-          z2(basis.even_second() * m.z),
-          speed((r1.cwiseAbs2() + z1.cwiseAbs2()).cwiseSqrt()) {}
-    SpectralCurve(const Meridian<S>& m, const typename TrigonometricBasis<S>::Sampling& at)
-        : r(at.odd * m.r),
-          z(at.even * m.z),
-          r1(at.odd_slope * m.r),
-          z1(at.even_slope * m.z),
-          r2(at.odd_second * m.r),
-          z2(at.even_second * m.z),
-          speed((r1.cwiseAbs2() + z1.cwiseAbs2()).cwiseSqrt()) {}
-
-    /// Positive where the surface is convex.
-    Vector<S> meridional_curvature() const {
-        return (r1.cwiseProduct(z2) - z1.cwiseProduct(r2)).array() / speed.array().cube();
-    }
-    /// H; azimuthal and meridional curvature are the same on the axis.
-    Vector<S> mean_curvature() const {
-        Vector<S> h = meridional_curvature();
-        for (Index i = 0; i < h.size(); ++i) {
-            if (r[i] > S(0)) {
-                h[i] = (h[i] + z1[i] / (speed[i] * r[i])) / 2;
-            }
-        }
-        return h;
-    }
-};
-
 /// Base of the discretisations whose meridian is a sine and a cosine series of t.
 template <class S>
-class SpectralGeometry {
+class SpectralGeometry : public detail::SampledGeometry<SpectralGeometry<S>, S> {
   public:
     /// Throws InvalidArgument when a parameter is out of range.
     explicit SpectralGeometry(SpectralMeshingParams<S> meshing = {}) : meshing_(std::move(meshing)) {
@@ -84,17 +43,32 @@ class SpectralGeometry {
 
     const SpectralMeshingParams<S>& meshing() const { return meshing_; }
 
-    Measures<S> measures(const Meridian<S>& shape) const {
-        const auto& fine = TrigonometricBasis<S>::of_degree(shape.elements())->fine();
-        const SpectralCurve<S> curve(shape, fine);
-        const S pi = detail::pi_value<S>();
-        const Vector<S> ring = fine.weights.cwiseProduct(curve.r);
-        const Vector<S> disc = pi * ring.cwiseProduct(curve.r).cwiseProduct(curve.z1);
-        Measures<S> m;
-        m.area = 2 * pi * ring.dot(curve.speed);
-        m.volume = disc.sum();
-        m.centroid = disc.dot(curve.z) / m.volume;
-        return m;
+    /// The curve at the nodes.
+    CurveSamples<S> at_nodes(const Meridian<S>& shape) const {
+        const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
+        CurveSamples<S> curve{shape.r,
+                              shape.z,
+                              basis->odd_first() * shape.r,
+                              basis->even_first() * shape.z,
+                              basis->odd_second() * shape.r,
+                              basis->even_second() * shape.z,
+                              {}};
+        curve.finish();
+        return curve;
+    }
+    /// At the points of a rule that is exact for the volume.
+    CurveSamples<S> fine(const Meridian<S>& shape) const {
+        const auto& at = TrigonometricBasis<S>::of_degree(shape.elements())->fine();
+        CurveSamples<S> curve{at.odd * shape.r,
+                              at.even * shape.z,
+                              at.odd_slope * shape.r,
+                              at.even_slope * shape.z,
+                              at.odd_second * shape.r,
+                              at.even_second * shape.z,
+                              {},
+                              at.weights};
+        curve.finish();
+        return curve;
     }
 
     /// Largest distance from the axis.
@@ -118,20 +92,6 @@ class SpectralGeometry {
         return largest;
     }
 
-    /// 2 Int H^2 dA in kappa.
-    S bending_energy(const Meridian<S>& shape) const {
-        const auto& fine = TrigonometricBasis<S>::of_degree(shape.elements())->fine();
-        const SpectralCurve<S> curve(shape, fine);
-        return 4 * detail::pi_value<S>() *
-               fine.weights.cwiseProduct(curve.r).cwiseProduct(curve.speed).dot(curve.mean_curvature().cwiseAbs2());
-    }
-
-    /// Meridional curvatures at the lower and the upper pole, in 1/R0, positive on a sphere.
-    std::pair<S, S> pole_curvatures(const Meridian<S>& shape) const {
-        const Vector<S> k = SpectralCurve<S>(shape).meridional_curvature();
-        return {k[0], k[k.size() - 1]};
-    }
-
     /// The part of the shape's slope dx/dt that the last quarter of its modes makes up: how well it is resolved.
     S unresolved(const Meridian<S>& shape) const {
         using std::sqrt;
@@ -140,51 +100,6 @@ class SpectralGeometry {
         const Vector<S> power = k.cwiseProduct(basis->odd_coefficients() * shape.r).cwiseAbs2() +
                                 k.cwiseProduct(basis->even_coefficients() * shape.z).cwiseAbs2();
         return sqrt(power.tail(shape.nodes() / 4).sum() / power.sum());
-    }
-
-    /// Displaces the nodes by (a + b H) n until area and volume have the values given, to 1000 epsilon; false if
-    /// Newton's iteration does not get there. See restore_area_and_volume.
-    bool restore(Meridian<S>& shape, const S& area, const S& volume) const {
-        const S tolerance = 1000 * std::numeric_limits<S>::epsilon();
-        const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
-        for (int iteration = 0; iteration < 8; ++iteration) {
-            const Measures<S> now = measures(shape);
-            if (detail::restored(now, area, volume, tolerance)) {
-                return true;
-            }
-            const SpectralCurve<S> fine(shape, basis->fine());
-            const Vector<S> fine_h = fine.mean_curvature();
-            const Vector<S> da =
-                2 * detail::pi_value<S>() * basis->fine().weights.cwiseProduct(fine.r).cwiseProduct(fine.speed);
-            const detail::RestoringShift<S> change(now, area, volume, da.dot(fine_h), da.dot(fine_h.cwiseAbs2()));
-            if (change.exhausted(tolerance)) {
-                return true;
-            }
-            const SpectralCurve<S> curve(shape, *basis);
-            Vector<S> shift = change.by_curvature * curve.mean_curvature();
-            shift.array() += change.constant;
-            if (!displace(shape, curve, shift)) {
-                return false;
-            }
-        }
-        return false;
-    }
-
-    /// Gives the shape its volume again, if its area may change, by a displacement of all nodes by the same distance
-    /// along the normal; false if that fails.
-    bool restore(Meridian<S>& shape, const S& volume) const {
-        using std::abs;
-        for (int iteration = 0; iteration < 8; ++iteration) {
-            const Measures<S> now = measures(shape);
-            if (abs(now.volume / volume - S(1)) <= 1000 * std::numeric_limits<S>::epsilon()) {
-                return true;
-            }
-            const Vector<S> shift = Vector<S>::Constant(shape.nodes(), S((volume - now.volume) / now.area));
-            if (!displace(shape, SpectralCurve<S>(shape), shift)) {
-                return false;
-            }
-        }
-        return false;
     }
 
     /// Points of the curve, twice as many as nodes, these among them.
@@ -265,24 +180,15 @@ class SpectralGeometry {
         return result;
     }
 
-    /// Along the normals; false if that leads to infinity.
-    static bool displace(Meridian<S>& shape, const SpectralCurve<S>& curve, const Vector<S>& distance) {
-        const Vector<S> shift = distance.cwiseQuotient(curve.speed);
-        shape.r += shift.cwiseProduct(curve.z1);
-        shape.z -= shift.cwiseProduct(curve.r1);
-        shape.r[0] = shape.r[shape.elements()] = 0;
-        return shape.r.allFinite() && shape.z.allFinite();
-    }
-
     /// The wanted number of nodes per unit of t, up to a factor: by curvature, smoothed along the arc.
     Vector<S> node_density(const Meridian<S>& shape) const {
         using std::sqrt;
         const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
-        const SpectralCurve<S> curve(shape, *basis);
+        const CurveSamples<S> curve = at_nodes(shape);
         Vector<S> density =
             (S(1) + (meshing_.spacing.curvature_weight * curve.meridional_curvature()).array().square()).sqrt();
         if (meshing_.density) {
-            const S centroid = measures(shape).centroid;
+            const S centroid = this->measures(shape).centroid;
             for (Index i = 0; i < density.size(); ++i) {
                 density[i] *= meshing_.density({curve.r[i], curve.z[i] - centroid});
             }

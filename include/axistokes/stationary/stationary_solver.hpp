@@ -109,6 +109,11 @@ requires(SceneType::deformable) class StationarySolver {
                 for (std::size_t b = 0; b < start.size(); ++b) {
                     resample(start, b, bodies[b].shape.elements() / 2);
                 }
+                for (const auto& body : start) {
+                    if (const std::string cause = detail::fault(body.shape); !cause.empty()) {
+                        throw SimulationFailure(cause);
+                    }
+                }
                 iterate(coarse_, start, conserved, coarse_tolerance(), linearisation, coarse);
                 state.coarse_evaluations = coarse.evaluations;
                 state.coarse_jacobians = coarse.jacobians;

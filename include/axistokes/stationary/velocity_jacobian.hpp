@@ -47,6 +47,18 @@ class MobilityChange {
     Index degree() const { return degree_; }
 
     /// For an iteration: one-sided differences, the first three quarters of the modes.
+    /// To the meridian of that degree, or of the first above it that carries the shape: a thin tube takes more.
+    static Index coarsen(Configuration<S>& body, Index degree) {
+        const Meridian<S> fine = std::move(body.shape);
+        body.shape = resampled(fine, degree);
+        while (degree < fine.elements() && !fault(body.shape).empty()) {
+            degree = std::min((3 * degree) / 2, fine.elements());
+            body.shape = resampled(fine, degree);
+        }
+        body.tension.resize(0);
+        return degree;
+    }
+
     void find(SceneType& scene, SceneType& coarse, const Point& point, Index degree) {
         find(scene, coarse, point, degree, false);
     }
@@ -142,13 +154,13 @@ class MobilityChange {
         std::vector<Vector<S>> fine;
         std::vector<Vector<S>> forces;
         for (std::size_t b = 0; b < there.size(); ++b) {
-            const Index own = coarse.deforms(b) ? std::min(degree, there[b].shape.elements()) : 0;
+            Index own = 0;
+            if (coarse.deforms(b)) {
+                own = coarsen(there[b], std::min(degree, there[b].shape.elements()));
+                degree_ = std::max(degree_, own);
+            }
             degrees_.push_back(own);
             modes_.push_back(accurately && own > 0 ? own + 1 : (3 * own) / 4);
-            if (own > 0) {
-                there[b].shape = resampled(point.bodies[b].shape, own);
-                there[b].tension.resize(0);
-            }
             fine.push_back(point.instants[b].solution.force);
             forces.push_back(coarsened(b, fine.back()));
         }

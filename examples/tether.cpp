@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// A heavy vesicle settles and pulls a thin tube out of its rear (Trozzo et al. 2015, Fig. 8).
+#include "support/command_line.hpp"
+#include "support/neck.hpp"
+#include "support/vesicle_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace {
+
+/// From when on the height keeps within `share` of its last value; none if that is so from the last step on only.
+std::optional<double> plateau(const examples::VesicleEnd& end, double share) {
+    for (std::size_t i = end.times.size(); i-- > 0;) {
+        if (std::abs(end.lengths[i] / end.lengths.back() - 1) > share) {
+            return i + 2 < end.times.size() ? std::optional(end.times[i + 1]) : std::nullopt;
+        }
+    }
+    return end.times.empty() ? std::nullopt : std::optional(end.times.front());
+}
+
+nlohmann::ordered_json describe(const examples::VesicleEnd& end) {
+    const auto& shape = end.shape;
+    const double top = shape.z[shape.nodes() - 1];
+    nlohmann::ordered_json keys{{"height", top - shape.z[0]}, {"tether_length", 0.0}};
+    if (const auto neck = examples::first_neck(shape)) {
+        keys["tether_length"] = top - shape.z[*neck];
+        keys["tether_radius"] = shape.r[*neck];
+        if (end.tension.size() > 0 && end.tension[*neck] > 0) {
+            // A tube that bends and is under tension, in equilibrium.
+            keys["tether_radius_of_tension"] = 1 / std::sqrt(2 * end.tension[*neck]);
+            keys["tether_tension"] = end.tension[*neck];
+        }
+    }
+    if (const auto time = plateau(end, 0.01)) {
+        keys["plateau_time"] = *time;
+    }
+    return keys;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    examples::CommandLine app{"tether", "A heavy vesicle settles and pulls a thin tube out of its rear (Fig. 8)"};
+    examples::VesicleOptions vesicle;
+    vesicle.excess_area = 0.93;
+    examples::RunOptions run;
+    run.method.usual_discretization = "adaptive";
+    run.method.preset = "fast";
+    run.time = 20;
+    double bond = 392;
+    vesicle.add_to(app);
+    app.number("--bond", bond, "Bond number B0 = (rho_in - rho_out) g R0^4 / kappa");
+    run.add_to(app);
+
+    return app.run(argc, argv, [&] {
+        run.method.check();
+        const auto initial = [&](axistokes::Index elements) { return vesicle.shape(elements); };
+        examples::VesicleCase c{
+            run, initial, vesicle.excess_area, examples::Drive(axistokes::Gravity<double>(bond)), {}, 0, {}, describe};
+        c.parameters = {{"excess_area", vesicle.excess_area}, {"bond", bond}};
+        return examples::run_vesicle(c);
+    });
+}
