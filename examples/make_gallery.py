@@ -382,6 +382,54 @@ def settling_in_tube(g):
     print_runs("Rc/R0", labelled)
 
 
+@figure
+def tether(g):
+    """The height of a heavy vesicle that pulls a tether, until it is stationary."""
+    fig, (left, right) = plt.subplots(1, 2, figsize=(9.5, 3.6), width_ratios=(1, 1.5), layout="constrained")
+    summary, _, history = g.run("tether", "tether", time=300, max_steps=40000, frame_times="0,0.5,1,20,300")
+    left.semilogx(history["time"], history["length"], color=BROWN)
+    left.set_xlabel(r"$t$ ($\eta R_0^3/\kappa$)")
+    left.set_ylabel(r"height ($R_0$)")
+    left.set_xlim(1e-3)
+    frames = g.table("tether", "frames.csv")
+    for k in np.unique(frames["frame"]):
+        at = frames["frame"] == k
+        z = frames["z"][at] - frames["z"][at][0]
+        right.plot(np.concatenate([frames["r"][at], -frames["r"][at][::-1]]) + 2.2 * k, np.concatenate([z, z[::-1]]),
+                   color=BROWN, lw=0.9)
+        right.text(2.2 * k, -0.4, f"t = {frames['time'][at][0]:g}", ha="center", fontsize=8)
+    right.set_aspect("equal")
+    right.axis("off")
+    g.save(fig, "tether")
+    keys = ("velocity", "height", "tether_length", "tether_radius", "tether_radius_of_tension", "plateau_time",
+            "elements", "steps", "wall_seconds", "error_estimate")
+    rows = [["392, t = 300"] + [summary.get(k, "") for k in keys]]
+    for bond in ("100", "200", "392", "800", "2000"):
+        other, _, _ = g.run(f"tether_{bond}", "tether", bond=bond)
+        rows.append([f"{bond}, t = 20"] + [other.get(k, "") for k in keys])
+    print_table(["Bond number"] + [k.replace("_", " ") for k in keys], rows)
+
+
+@figure
+def pearling(g):
+    """A thin tube under tension breaks up into pearls."""
+    summary, _, _ = g.run("pearling", "pearling")
+    frames = g.table("pearling", "frames.csv")
+    fig, axes = plt.subplots(figsize=(9.5, 4.2), layout="constrained")
+    for k in np.unique(frames["frame"]):
+        at = frames["frame"] == k
+        z = frames["z"][at] - frames["z"][at][0]
+        axes.fill(np.concatenate([frames["r"][at], -frames["r"][at][::-1]]) + 2.3 * k, np.concatenate([z, z[::-1]]),
+                  facecolor="#fbe9d9", edgecolor=BROWN, lw=0.7)
+        axes.text(2.3 * k, -0.45, f"t = {1e4 * frames['time'][at][0]:.3g}e-4", ha="center", fontsize=8)
+    axes.set_aspect("equal")
+    axes.axis("off")
+    g.save(fig, "pearling")
+    keys = ("velocity", "height", "tether_length", "pearls", "tether_radius", "tension_over_bending", "elements",
+            "steps", "wall_seconds", "error_estimate")
+    print_table([k.replace("_", " ") for k in keys], [[summary.get(k, "") for k in keys]])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("figure", nargs="*", help="one of " + ", ".join(FIGURES) + "; default: all")

@@ -43,7 +43,7 @@ inline std::optional<axistokes::Index> first_neck(const axistokes::Meridian<doub
     return std::nullopt;
 }
 
-/// How often, from node `from` on, the radius rises and falls again by a factor.
+/// How often, from node `from` on, the radius rises and falls again by a factor, not counting the end of the tube.
 inline axistokes::Index pearls_above(const axistokes::Meridian<double>& shape, axistokes::Index from, double factor) {
     axistokes::Index count = 0;
     double low = shape.r[from];
@@ -62,7 +62,8 @@ inline axistokes::Index pearls_above(const axistokes::Meridian<double>& shape, a
             ++count;
         }
     }
-    return count;
+    // The last fall is that to the pole.
+    return std::max<axistokes::Index>(count - 1, 0);
 }
 
 }  // namespace examples

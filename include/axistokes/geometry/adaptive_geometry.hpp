@@ -126,7 +126,7 @@ class AdaptiveGeometry : public detail::SampledGeometry<AdaptiveGeometry<S>, S> 
     }
 
     /// How well the shape is resolved: from d, the largest distance between the polynomials and the curve over that of
-    /// two nodes, as far as differences of the order tell, 4 d sqrt(d/1e-3), or 4 d of larger ones. That is at least
+    /// two nodes, as far as differences of the order tell, 4 d (d/1e-3)^(1/4), or 4 d of larger ones. That is at least
     /// twice the relative error of velocities and lengths (docs/adaptive.md, section 5).
     S unresolved(const Meridian<S>& shape) const {
         using std::sqrt;
@@ -153,7 +153,7 @@ class AdaptiveGeometry : public detail::SampledGeometry<AdaptiveGeometry<S>, S> 
             const S tz = (z[i + m + 1] - z[i + m - 1]) / 2;
             largest = std::max<S>(largest, factor * sqrt((dr * dr + dz * dz) / (tr * tr + tz * tz)));
         }
-        return 4 * largest * std::min<S>(S(1), sqrt(largest / S(1e-3)));
+        return 4 * largest * std::min<S>(S(1), sqrt(S(sqrt(largest / S(1e-3)))));
     }
 
     /// The nodes, and the middles of the elements on the curve between them.
@@ -178,7 +178,7 @@ class AdaptiveGeometry : public detail::SampledGeometry<AdaptiveGeometry<S>, S> 
     /// The number of elements that reduces `unresolved` from `now` to `wanted`: it falls like the differences it is of.
     Index finer(Index elements, const S& now, const S& wanted) const {
         using std::pow;
-        const S factor = S(1.1) * pow(now / wanted, S(2) / S(3 * (2 * half() - 1)));
+        const S factor = S(1.1) * pow(now / wanted, S(4) / S(5 * (2 * half() - 1)));
         return static_cast<Index>(std::ceil(static_cast<double>(S(elements) * std::clamp(factor, S(1.1), S(1.6)))));
     }
 
