@@ -158,3 +158,14 @@ TEST_CASE("GMRES parameters out of range are refused", "[solver]") {
     CHECK(mentions(refusal([] { Gmres<double>(Params{0.0, 20}); }), "GMRES tolerance", "0", "in (0, 1)"));
     CHECK(mentions(refusal([] { Gmres<double>(Params{1e-10, 0}); }), "GMRES patience", "0", "at least 1"));
 }
+
+TEST_CASE("GMRES: old factors that hide a residual are renewed") {
+    Gmres<double> gmres;
+    axistokes::Matrix<double> a = axistokes::Matrix<double>::Identity(2, 2);
+    a(1, 1) = 1e14;
+    gmres.factorize(a);
+    gmres.factorize(axistokes::Matrix<double>::Identity(2, 2));
+    const axistokes::Vector<double> x = gmres.solve(axistokes::Vector<double>::Ones(2));
+    CHECK(x[0] == Approx(1));
+    CHECK(x[1] == Approx(1));
+}

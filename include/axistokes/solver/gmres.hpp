@@ -61,7 +61,7 @@ class Gmres {
     using Scalar = S;
 
     struct Params {
-        /// Relative residual of the preconditioned system, in (0, 1).
+        /// Relative residual of the preconditioned system, in (0, 1); a hundredth of the backward error allowed.
         S tolerance = 100 * std::numeric_limits<S>::epsilon();
         /// Iterations after which the preconditioner is renewed.
         Index patience = 20;
@@ -92,7 +92,7 @@ class Gmres {
             gmres.compute(matrix_);
             const Vector<S> x = gmres.solve(b);
             iterations_ += gmres.iterations();
-            if (gmres.info() == Eigen::Success && x.allFinite()) {
+            if (gmres.info() == Eigen::Success && x.allFinite() && solves(x, b)) {
                 return x;
             }
             if (may_renew) {
@@ -109,6 +109,13 @@ class Gmres {
     Index factorizations() const { return factorizations_; }
 
   private:
+    /// Old factors may hide a residual of the system itself: its backward error is to be small as well.
+    bool solves(const Vector<S>& x, const Vector<S>& b) const {
+        const S size =
+            matrix_.cwiseAbs().rowwise().sum().maxCoeff() * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
+        return (matrix_ * x - b).cwiseAbs().maxCoeff() <= 100 * params_.tolerance * size;
+    }
+
     void renew() {
         auto factors = std::make_shared<const Eigen::PartialPivLU<Matrix<S>>>(matrix_);
         ++factorizations_;
