@@ -404,9 +404,10 @@ def tether(g):
     keys = ("velocity", "height", "tether_length", "tether_radius", "tether_radius_of_tension", "plateau_time",
             "elements", "steps", "wall_seconds", "error_estimate")
     rows = [["392, t = 300"] + [summary.get(k, "") for k in keys]]
-    for bond in ("100", "200", "392", "800", "2000"):
-        other, _, _ = g.run(f"tether_{bond}", "tether", bond=bond)
-        rows.append([f"{bond}, t = 20"] + [other.get(k, "") for k in keys])
+    for bond in (100, 200, 392, 800, 2000):
+        time = 1600 / bond
+        other, _, _ = g.run(f"tether_{bond}", "tether", bond=bond, time=time)
+        rows.append([f"{bond}, t = {time:.3g}"] + [other.get(k, "") for k in keys])
     print_table(["Bond number"] + [k.replace("_", " ") for k in keys], rows)
 
 
@@ -415,15 +416,20 @@ def pearling(g):
     """A thin tube under tension breaks up into pearls."""
     summary, _, _ = g.run("pearling", "pearling")
     frames = g.table("pearling", "frames.csv")
-    fig, axes = plt.subplots(figsize=(9.5, 4.2), layout="constrained")
+    fig, (top, bottom) = plt.subplots(2, 1, figsize=(9.5, 6.2), height_ratios=(1.7, 1), layout="constrained")
     for k in np.unique(frames["frame"]):
         at = frames["frame"] == k
-        z = frames["z"][at] - frames["z"][at][0]
-        axes.fill(np.concatenate([frames["r"][at], -frames["r"][at][::-1]]) + 2.3 * k, np.concatenate([z, z[::-1]]),
-                  facecolor="#fbe9d9", edgecolor=BROWN, lw=0.7)
-        axes.text(2.3 * k, -0.45, f"t = {1e4 * frames['time'][at][0]:.3g}e-4", ha="center", fontsize=8)
-    axes.set_aspect("equal")
-    axes.axis("off")
+        r, z = frames["r"][at], frames["z"][at] - frames["z"][at][0]
+        top.fill(np.concatenate([r, -r[::-1]]) + 2.3 * k, np.concatenate([z, z[::-1]]), facecolor="#fbe9d9",
+                 edgecolor=BROWN, lw=0.7)
+        top.text(2.3 * k, -0.45, f"t = {1e4 * frames['time'][at][0]:.3g}e-4", ha="center", fontsize=8)
+    top.set_aspect("equal")
+    top.axis("off")
+    # The tube of the last frame, its radius magnified.
+    tube = z > 1.9
+    bottom.fill_between(z[tube], r[tube], -r[tube], facecolor="#fbe9d9", edgecolor=BROWN, lw=0.7)
+    bottom.set_ylim(-0.16, 0.16)
+    bottom.set_xlabel(r"height above the lower pole ($R_0$); radius magnified by about five")
     g.save(fig, "pearling")
     keys = ("velocity", "height", "tether_length", "pearls", "tether_radius", "tension_over_bending", "elements",
             "steps", "wall_seconds", "error_estimate")

@@ -287,7 +287,9 @@ int main(int argc, char** argv) {
     app.text("--out", directory, "directory that receives diagram.csv; created if missing").required();
     return app.run(argc, argv, [&] {
         detail::require(settings.elements >= 24, "elements", settings.elements, "at least 24");
-        detail::require(settings.most_elements <= 400, "max-elements", settings.most_elements, "at most 400");
+        detail::require(settings.most_elements >= settings.elements && settings.most_elements <= 400, "max-elements",
+                        settings.most_elements, "from elements to 400");
+        detail::require(settings.tolerance > 0 && settings.tolerance < 1, "tolerance", settings.tolerance, "in (0, 1)");
         detail::require(settings.unresolved > 0, "unresolved", settings.unresolved, "> 0");
         const std::vector<Case> wanted =
             cases.given() ? examples::read_cases(input)

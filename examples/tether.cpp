@@ -10,21 +10,23 @@
 
 namespace {
 
-/// From when on the height keeps within `share` of its last value; none if that is so from the last step on only.
+/// From when on the height keeps within `share` of its last value, if that is so for the last quarter of the time.
 std::optional<double> plateau(const examples::VesicleEnd& end, double share) {
     for (std::size_t i = end.times.size(); i-- > 0;) {
         if (std::abs(end.lengths[i] / end.lengths.back() - 1) > share) {
-            return i + 2 < end.times.size() ? std::optional(end.times[i + 1]) : std::nullopt;
+            const double from = i + 1 < end.times.size() ? end.times[i + 1] : end.times.back();
+            return from <= 0.75 * end.times.back() ? std::optional(from) : std::nullopt;
         }
     }
-    return end.times.empty() ? std::nullopt : std::optional(end.times.front());
+    return std::nullopt;
 }
 
 nlohmann::ordered_json describe(const examples::VesicleEnd& end) {
     const auto& shape = end.shape;
     const double top = shape.z[shape.nodes() - 1];
     nlohmann::ordered_json keys{{"height", top - shape.z[0]}, {"tether_length", 0.0}};
-    if (const auto neck = examples::first_neck(shape)) {
+    const auto neck = examples::first_neck(shape);
+    if (neck && top - shape.z[*neck] > 10 * shape.r[*neck]) {
         keys["tether_length"] = top - shape.z[*neck];
         keys["tether_radius"] = shape.r[*neck];
         if (end.tension.size() > 0 && end.tension[*neck] > 0) {
@@ -42,13 +44,14 @@ nlohmann::ordered_json describe(const examples::VesicleEnd& end) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    examples::CommandLine app{"tether", "A heavy vesicle settles and pulls a thin tube out of its rear (Fig. 8)"};
+    examples::CommandLine app{
+        "tether",
+        "A heavy vesicle settles and pulls a thin tube out of its rear (Fig. 8); until\ntime 20, if no other is given"};
     examples::VesicleOptions vesicle;
     vesicle.excess_area = 0.93;
     examples::RunOptions run;
     run.method.usual_discretization = "adaptive";
     run.method.preset = "fast";
-    run.time = 20;
     double bond = 392;
     vesicle.add_to(app);
     app.number("--bond", bond, "Bond number B0 = (rho_in - rho_out) g R0^4 / kappa");
@@ -56,6 +59,9 @@ int main(int argc, char** argv) {
 
     return app.run(argc, argv, [&] {
         run.method.check();
+        if (!run.time && !run.method.newton()) {
+            run.time = 20;
+        }
         const auto initial = [&](axistokes::Index elements) { return vesicle.shape(elements); };
         examples::VesicleCase c{
             run, initial, vesicle.excess_area, examples::Drive(axistokes::Gravity<double>(bond)), {}, 0, {}, describe};

@@ -6,7 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <exception>
 #include <iostream>
 #include <type_traits>
@@ -16,15 +18,21 @@ namespace examples {
 
 namespace {
 
+/// Throws InvalidArgument unless all of the text is a number.
+template <class Number>
+Number parsed(const std::string& name, const std::string& text) {
+    Number number{};
+    const bool sign = text.size() > 1 && text[0] == '+' && text[1] != '-';
+    const auto result = std::from_chars(text.data() + (sign ? 1 : 0), text.data() + text.size(), number);
+    axistokes::detail::require(result.ec == std::errc() && result.ptr == text.data() + text.size(), name.c_str(), text,
+                               std::is_integral_v<Number> ? "a whole number" : "a number within double's range");
+    return number;
+}
+
 template <class Number>
 CLI::Validator number_check(const std::string& name) {
     const auto parse = [name](const std::string& text) {
-        Number parsed{};
-        const bool sign = text.size() > 1 && text[0] == '+' && text[1] != '-';
-        const auto result = std::from_chars(text.data() + (sign ? 1 : 0), text.data() + text.size(), parsed);
-        const bool number = result.ec == std::errc() && result.ptr == text.data() + text.size();
-        axistokes::detail::require(number, name.c_str(), text,
-                                   std::is_integral_v<Number> ? "a whole number" : "a number within double's range");
+        parsed<Number>(name, text);
         return std::string();
     };
     return CLI::Validator(parse, "");
@@ -83,7 +91,16 @@ Option CommandLine::number(const std::string& name, std::optional<Index>& value,
 }
 
 Option CommandLine::numbers(const std::string& name, std::vector<double>& values, const std::string& description) {
-    return Option(app_->add_option(name, values, description)->delimiter(',')->check(number_check<double>(name)));
+    // The parser's own lists leave out what is empty.
+    const auto read = [name, &values](const std::string& text) {
+        values.clear();
+        for (std::size_t begin = 0; begin <= text.size();) {
+            const std::size_t end = std::min(text.find(',', begin), text.size());
+            values.push_back(parsed<double>(name, text.substr(begin, end - begin)));
+            begin = end + 1;
+        }
+    };
+    return Option(app_->add_option_function<std::string>(name, read, description));
 }
 
 Option CommandLine::text(const std::string& name, std::string& value, const std::string& description) {

@@ -422,7 +422,11 @@ class Driver {
     void solve_rigid() {
         const Index most_of_rigid = 2 * most();
         auto now = velocity_and_force(simulator_->moment().instants);
-        if (!adapts()) {
+        if (!adapts() && spectral() && (2 * elements()) / 3 < minimum_elements) {
+            // There are too few to compare with fewer.
+            Simulator fine = make_(2 * elements());
+            judge_rigid(now, velocity_and_force(fine.moment().instants), elements());
+        } else if (!adapts()) {
             Simulator coarse = make_(std::max(minimum_elements, (2 * elements()) / 3));
             judge_rigid(velocity_and_force(coarse.moment().instants), now, coarse.configuration().shape.elements());
         }
@@ -802,6 +806,12 @@ class Driver {
                     auto finer = refining.solve(refined(state.bodies, needs, error), measures);
                     result_.newton_iterations += finer.iterations;
                     result_.newton_evaluations += finer.evaluations;
+                    if (spectral() && unresolved_error(finer.bodies) > std::max(params_.eps, S(error / 10))) {
+                        // Nodes placed on a coarser curve remember its errors.
+                        finer = refining.solve(evened(finer.bodies), measures);
+                        result_.newton_iterations += finer.iterations;
+                        result_.newton_evaluations += finer.evaluations;
+                    }
                     if (!spectral()) {
                         error = S(largest_error(measured(state), measured(finer)));
                     }
@@ -880,6 +890,16 @@ class Driver {
             next = std::min(next, std::max(now, most_in_newton()));
             if (next > now) {
                 bodies[b] = simulator_->scene().redistributed(bodies[b], next);
+            }
+        }
+        return bodies;
+    }
+
+    /// The same numbers of elements, spaced anew.
+    State evened(State bodies) const {
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            if (simulator_->scene().deforms(b)) {
+                bodies[b] = simulator_->scene().redistributed(bodies[b], bodies[b].shape.elements());
             }
         }
         return bodies;
