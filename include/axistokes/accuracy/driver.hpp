@@ -806,11 +806,13 @@ class Driver {
                     auto finer = refining.solve(refined(state.bodies, needs, error), measures);
                     result_.newton_iterations += finer.iterations;
                     result_.newton_evaluations += finer.evaluations;
-                    if (spectral() && unresolved_error(finer.bodies) > std::max(params_.eps, S(error / 10))) {
-                        // Nodes placed on a coarser curve remember its errors.
-                        finer = refining.solve(evened(finer.bodies), measures);
-                        result_.newton_iterations += finer.iterations;
-                        result_.newton_evaluations += finer.evaluations;
+                    if constexpr (can_judge) {
+                        if (spectral() && unresolved_error(finer.bodies) > std::max(params_.eps, S(error / 10))) {
+                            // Nodes placed on a coarser curve remember its errors.
+                            finer = refining.solve(evened(finer.bodies), measures);
+                            result_.newton_iterations += finer.iterations;
+                            result_.newton_evaluations += finer.evaluations;
+                        }
                     }
                     if (!spectral()) {
                         error = S(largest_error(measured(state), measured(finer)));
