@@ -11,8 +11,7 @@ nlohmann::ordered_json describe(const examples::VesicleEnd& end) {
     const auto& shape = end.shape;
     const double top = shape.z[shape.nodes() - 1];
     nlohmann::ordered_json keys{{"height", top - shape.z[0]}, {"tether_length", 0.0}, {"pearls", 0}};
-    const auto neck = examples::first_neck(shape);
-    if (neck && top - shape.z[*neck] > 10 * shape.r[*neck]) {
+    if (const auto neck = examples::tube_neck(shape)) {
         keys["tether_length"] = top - shape.z[*neck];
         keys["tether_radius"] = shape.r[*neck];
         keys["pearls"] = examples::pearls_above(shape, *neck, 1.2);

@@ -31,13 +31,15 @@ inline std::optional<Neck> thinnest_neck(const axistokes::Meridian<double>& shap
     return thinnest;
 }
 
-/// The first place above the widest one that is thinner than its neighbours: where a tube leaves a body.
-inline std::optional<axistokes::Index> first_neck(const axistokes::Meridian<double>& shape) {
+/// Where a tube, of ten radii at least, leaves a body: the first place above the widest one that is thinner than its
+/// neighbours.
+inline std::optional<axistokes::Index> tube_neck(const axistokes::Meridian<double>& shape) {
     axistokes::Index widest = 0;
     shape.r.maxCoeff(&widest);
     for (axistokes::Index i = widest + 1; i + 1 < shape.nodes(); ++i) {
         if (shape.r[i] <= shape.r[i - 1] && shape.r[i] < shape.r[i + 1]) {
-            return i;
+            const bool slender = shape.z[shape.nodes() - 1] - shape.z[i] > 10 * shape.r[i];
+            return slender ? std::optional(i) : std::nullopt;
         }
     }
     return std::nullopt;

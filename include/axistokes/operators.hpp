@@ -79,6 +79,17 @@ Sparse<S> product(const Sparse<S>& a, const Sparse<S>& b) {
     return assembled(a.rows(), b.cols(), entries);
 }
 
+/// [diag(r) a; diag(z) a].
+template <class S>
+Sparse<S> spread_along(const Vector<S>& r, const Vector<S>& z, const Sparse<S>& a) {
+    Triplets<S> entries;
+    for_each_entry(a, [&](Index i, Index j, const S& value) {
+        add_entry(entries, i, j, value * r[i]);
+        add_entry(entries, a.rows() + i, j, value * z[i]);
+    });
+    return assembled(2 * a.rows(), a.cols(), entries);
+}
+
 /// a + b.
 template <class Operator>
 Operator sum(Operator a, const Operator& b) {

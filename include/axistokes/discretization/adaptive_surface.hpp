@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 namespace axistokes {
@@ -37,8 +38,6 @@ struct AdaptiveSurface {
     Operator tension_force;      // tension there -> force density -2 gamma H n + grad_s gamma
     Operator tension_at_nodes;   // interpolation of the tension
     Operator tension_first;      // its derivative with respect to the node index, at the nodes
-    Operator first;              // n x n: d/dt of an even function
-    Operator second;             // n x n: d^2/dt^2
     CurveSamples<S> curve;       // at the nodes
     Index half_width = 0;
 
@@ -47,14 +46,7 @@ struct AdaptiveSurface {
     /// Unit normals, stacked.
     Vector<S> normals() const { return detail::stacked(normal_r, normal_z); }
     /// Operator -> scalar per node, as a stacked field along the frozen normals.
-    Operator along_normal(const Operator& scalar) const {
-        detail::Triplets<S> entries;
-        detail::for_each_entry(scalar, [&](Index i, Index j, const S& value) {
-            detail::add_entry(entries, i, j, value * normal_r[i]);
-            detail::add_entry(entries, size() + i, j, value * normal_z[i]);
-        });
-        return detail::assembled(2 * size(), scalar.cols(), entries);
-    }
+    Operator along_normal(const Operator& scalar) const { return detail::spread_along(normal_r, normal_z, scalar); }
     /// Int of a stacked field's normal component over the surface; exactly 0 for a translation.
     S flux(const Vector<S>& field) const { return volume_gradient.dot(field); }
     S area() const { return weight.sum(); }
@@ -75,8 +67,12 @@ struct AdaptiveSurface {
         add_change(entries, size(), lower);
         return detail::assembled(2 * size(), 2 * size(), entries);
     }
-    Vector<S> slopes(const Vector<S>& values) const { return detail::applied(first, values); }
-    Vector<S> second_slopes(const Vector<S>& values) const { return detail::applied(second, values); }
+    Vector<S> slopes(const Vector<S>& values) const {
+        return detail::differences(values, detail::local_stencils<S>(half_width)->first, 1, half_width);
+    }
+    Vector<S> second_slopes(const Vector<S>& values) const {
+        return detail::differences(values, detail::local_stencils<S>(half_width)->second, 1, half_width);
+    }
     Vector<S> tension_slopes(const Vector<S>& tension) const { return detail::applied(tension_first, tension); }
 
     /// Of the material that lay on `reference`, node by node.
@@ -126,8 +122,6 @@ class AdaptiveSurfaceBuilder {
   private:
     using Operator = typename AdaptiveSurface<S>::Operator;
 
-    bool pole(Index i) const { return i == 0 || i == n_ - 1; }
-
     /// A difference at every node: `row(i)` times the stencil.
     template <class Row>
     void add_differences(Triplets<S>& entries, const Vector<S>& stencil, int parity, const Row& row) const {
@@ -138,30 +132,10 @@ class AdaptiveSurfaceBuilder {
             }
         }
     }
-    Vector<S> differences(const Vector<S>& values, const Vector<S>& stencil, int parity) const {
-        const Vector<S> all = continued(values, parity, half_);
-        Vector<S> result(n_);
-        for (Index i = 0; i < n_; ++i) {
-            result[i] = stencil.dot(all.segment(i, 2 * half_ + 1));
-        }
-        return result;
-    }
 
     void metric() {
-        const Meridian<S>& m = s_.nodes;
-        CurveSamples<S>& x = s_.curve;
-        x.r = m.r;
-        x.z = m.z;
-        x.r1 = differences(m.r, stencils_->first, -1);
-        x.z1 = differences(m.z, stencils_->first, 1);
-        x.r2 = differences(m.r, stencils_->second, -1);
-        x.z2 = differences(m.z, stencils_->second, 1);
-        x.finish();
-        s_.normal_r = x.z1.cwiseQuotient(x.speed);
-        s_.normal_z = -x.r1.cwiseQuotient(x.speed);
-        s_.normal_r[0] = s_.normal_r[n_ - 1] = 0;
-        s_.normal_z[0] = -1;
-        s_.normal_z[n_ - 1] = 1;
+        s_.curve = local_curve(s_.nodes, half_);
+        std::tie(s_.normal_r, s_.normal_z) = s_.curve.normals();
     }
 
     /// Weights of Int dA of a nodal function, and the gradient of the volume pi Int r^2 z' dt.
@@ -216,28 +190,12 @@ class AdaptiveSurfaceBuilder {
         s_.volume_gradient[0] = s_.volume_gradient[n_ - 1] = 0;
     }
 
-    /// (r f'/|x'|)'/(r |x'|) = [f'' + (r'/r - |x'|'/|x'|) f']/|x'|^2, with the limit 2 f''/|x'|^2 at a pole.
     void laplacian() {
-        second_.resize(n_);
-        first_.resize(n_);
-        for (Index i = 0; i < n_; ++i) {
-            const S v2 = s_.curve.speed[i] * s_.curve.speed[i];
-            second_[i] = S(pole(i) ? 2 : 1) / v2;
-            first_[i] = pole(i) ? S(0)
-                                : S((s_.curve.r1[i] / s_.nodes.r[i] -
-                                     (s_.curve.r1[i] * s_.curve.r2[i] + s_.curve.z1[i] * s_.curve.z2[i]) / v2) /
-                                    v2);
-        }
+        std::tie(first_, second_) = s_.curve.laplacian_factors();
         Triplets<S> entries;
         add_differences(entries, stencils_->second, 1, [&](Index i) { return second_[i]; });
         add_differences(entries, stencils_->first, 1, [&](Index i) { return first_[i]; });
         s_.laplacian = assembled(n_, n_, entries);
-        Triplets<S> slopes;
-        add_differences(slopes, stencils_->first, 1, [](Index) { return S(1); });
-        s_.first = assembled(n_, n_, slopes);
-        slopes.clear();
-        add_differences(slopes, stencils_->second, 1, [](Index) { return S(1); });
-        s_.second = assembled(n_, n_, slopes);
     }
 
     /// Lap_s x = -2 H n, where the radial component of the vector x is Lap_s r - r/r^2 (its unit vector turns with the

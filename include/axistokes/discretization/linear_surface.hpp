@@ -42,14 +42,7 @@ struct LinearSurface {
     /// Unit normals, stacked.
     Vector<S> normals() const { return detail::stacked(normal_r, normal_z); }
     /// Operator -> scalar per node, as a stacked field along the frozen normals.
-    Operator along_normal(const Operator& scalar) const {
-        detail::Triplets<S> entries;
-        detail::for_each_entry(scalar, [&](Index i, Index j, const S& value) {
-            detail::add_entry(entries, i, j, value * normal_r[i]);
-            detail::add_entry(entries, size() + i, j, value * normal_z[i]);
-        });
-        return detail::assembled(2 * size(), scalar.cols(), entries);
-    }
+    Operator along_normal(const Operator& scalar) const { return detail::spread_along(normal_r, normal_z, scalar); }
     /// Int of a stacked field's normal component over the surface; exactly 0 for a translation.
     S flux(const Vector<S>& field) const { return volume_gradient.dot(field); }
     S area() const { return weight.sum(); }

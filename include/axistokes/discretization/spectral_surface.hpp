@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 namespace axistokes {
 
@@ -140,19 +141,8 @@ class SpectralSurfaceBuilder {
 
     void metric() {
         const Meridian<S>& m = s_.nodes;
-        CurveSamples<S>& x = s_.curve;
-        x.r = m.r;
-        x.z = m.z;
-        x.r1 = basis_->odd_first() * m.r;
-        x.z1 = basis_->even_first() * m.z;
-        x.r2 = basis_->odd_second() * m.r;
-        x.z2 = basis_->even_second() * m.z;
-        x.finish();
-        s_.normal_r = x.z1.cwiseQuotient(x.speed);
-        s_.normal_z = -x.r1.cwiseQuotient(x.speed);
-        s_.normal_r[0] = s_.normal_r[n_ - 1] = 0;
-        s_.normal_z[0] = -1;
-        s_.normal_z[n_ - 1] = 1;
+        s_.curve = series_curve(m);
+        std::tie(s_.normal_r, s_.normal_z) = s_.curve.normals();
         // The integral of a cosine series, a_0 t + sum_k (a_k/k) sin kt.
         Vector<S> integral = basis_->even_coefficients() * s_.curve.speed;
         for (Index k = 1; k < n_; ++k) {
@@ -183,18 +173,8 @@ class SpectralSurfaceBuilder {
         s_.volume_gradient.tail(n_) = -(fine.even.transpose() * ring.cwiseProduct(r1));
     }
 
-    /// (r f'/|x'|)'/(r |x'|) = [f'' + (r'/r - |x'|'/|x'|) f']/|x'|^2, with the limit 2 f''/|x'|^2 at a pole.
     void laplacian() {
-        Vector<S> second(n_);
-        Vector<S> first(n_);
-        for (Index i = 0; i < n_; ++i) {
-            const S v2 = s_.curve.speed[i] * s_.curve.speed[i];
-            second[i] = S(pole(i) ? 2 : 1) / v2;
-            first[i] = pole(i) ? S(0)
-                               : S((s_.curve.r1[i] / s_.nodes.r[i] -
-                                    (s_.curve.r1[i] * s_.curve.r2[i] + s_.curve.z1[i] * s_.curve.z2[i]) / v2) /
-                                   v2);
-        }
+        const auto [first, second] = s_.curve.laplacian_factors();
         s_.laplacian = second.asDiagonal() * basis_->even_second();
         s_.laplacian += first.asDiagonal() * basis_->even_first();
         radial_laplacian_ = second.asDiagonal() * basis_->odd_second();

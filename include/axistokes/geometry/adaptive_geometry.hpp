@@ -21,7 +21,7 @@ struct AdaptiveMeshingParams {
     /// Half the number of nodes of a polynomial: the order is twice that. In [2, 6].
     Index half_width = 4;
     /// Nodes per unit of length, up to a factor: sqrt(base^2 + k_m^2 + (weight k_a)^2), k_m and k_a the meridional and
-    /// the azimuthal curvature in 1/R0. >= 0; not both 0.
+    /// the azimuthal curvature in 1/R0; base > 0, weight >= 0.
     S base = S(0.5);
     S azimuthal_weight = S(0.4);
     /// The logarithm of that is smoothed over this length in units of its inverse, at least 2 nodes, > 0.
@@ -57,21 +57,7 @@ class AdaptiveGeometry : public detail::SampledGeometry<AdaptiveGeometry<S>, S> 
     const AdaptiveMeshingParams<S>& meshing() const { return meshing_; }
 
     /// The curve at the nodes.
-    CurveSamples<S> at_nodes(const Meridian<S>& shape) const {
-        const auto stencils = detail::local_stencils<S>(half());
-        const Index n = shape.nodes();
-        const Vector<S> r = detail::continued(shape.r, -1, half());
-        const Vector<S> z = detail::continued(shape.z, 1, half());
-        CurveSamples<S> curve{shape.r, shape.z, Vector<S>(n), Vector<S>(n), Vector<S>(n), Vector<S>(n), {}};
-        for (Index i = 0; i < n; ++i) {
-            curve.r1[i] = stencils->first.dot(r.segment(i, 2 * half() + 1));
-            curve.z1[i] = stencils->first.dot(z.segment(i, 2 * half() + 1));
-            curve.r2[i] = stencils->second.dot(r.segment(i, 2 * half() + 1));
-            curve.z2[i] = stencils->second.dot(z.segment(i, 2 * half() + 1));
-        }
-        curve.finish();
-        return curve;
-    }
+    CurveSamples<S> at_nodes(const Meridian<S>& shape) const { return detail::local_curve(shape, half()); }
 
     /// At the points of a rule that is as accurate as the polynomials.
     CurveSamples<S> fine(const Meridian<S>& shape) const {

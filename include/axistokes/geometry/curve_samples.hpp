@@ -36,6 +36,27 @@ struct CurveSamples {
         }
         return h;
     }
+    /// Outward unit normals, of all of a meridian from pole to pole.
+    std::pair<Vector<S>, Vector<S>> normals() const {
+        std::pair<Vector<S>, Vector<S>> n{z1.cwiseQuotient(speed), -r1.cwiseQuotient(speed)};
+        const Index last = r.size() - 1;
+        n.first[0] = n.first[last] = 0;
+        n.second[0] = -1;
+        n.second[last] = 1;
+        return n;
+    }
+    /// The factors of f' and f'' in the Laplacian of f, likewise:
+    /// (r f'/|x'|)'/(r |x'|) = [f'' + (r'/r - |x'|'/|x'|) f']/|x'|^2, with the limit 2 f''/|x'|^2 at a pole.
+    std::pair<Vector<S>, Vector<S>> laplacian_factors() const {
+        std::pair<Vector<S>, Vector<S>> factors{Vector<S>(r.size()), Vector<S>(r.size())};
+        for (Index i = 0; i < r.size(); ++i) {
+            const bool pole = i == 0 || i + 1 == r.size();
+            const S v2 = speed[i] * speed[i];
+            factors.first[i] = pole ? S(0) : S((r1[i] / r[i] - (r1[i] * r2[i] + z1[i] * z2[i]) / v2) / v2);
+            factors.second[i] = S(pole ? 2 : 1) / v2;
+        }
+        return factors;
+    }
     Vector<S> area_weights() const { return 2 * detail::pi_value<S>() * weights.cwiseProduct(r).cwiseProduct(speed); }
 };
 

@@ -8,6 +8,7 @@
 
 #include "../quadrature/computed_once.hpp"
 #include "../quadrature/gauss_legendre.hpp"
+#include "curve_samples.hpp"
 
 #include <Eigen/Core>
 
@@ -89,6 +90,32 @@ Vector<S> continued(const Vector<S>& values, int parity, Index by) {
         all[k] = S(sign) * values[node];
     }
     return all;
+}
+
+/// A stencil of 2 half + 1 nodes, applied at every node.
+template <class S>
+Vector<S> differences(const Vector<S>& values, const Vector<S>& stencil, int parity, Index half) {
+    const Vector<S> all = continued(values, parity, half);
+    Vector<S> result(values.size());
+    for (Index i = 0; i < values.size(); ++i) {
+        result[i] = stencil.dot(all.segment(i, 2 * half + 1));
+    }
+    return result;
+}
+
+/// A meridian at its nodes.
+template <class S>
+CurveSamples<S> local_curve(const Meridian<S>& m, Index half) {
+    const auto stencils = local_stencils<S>(half);
+    CurveSamples<S> curve{m.r,
+                          m.z,
+                          differences(m.r, stencils->first, -1, half),
+                          differences(m.z, stencils->first, 1, half),
+                          differences(m.r, stencils->second, -1, half),
+                          differences(m.z, stencils->second, 1, half),
+                          {}};
+    curve.finish();
+    return curve;
 }
 
 /// A function of the node index.

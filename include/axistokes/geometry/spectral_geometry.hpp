@@ -44,18 +44,7 @@ class SpectralGeometry : public detail::SampledGeometry<SpectralGeometry<S>, S> 
     const SpectralMeshingParams<S>& meshing() const { return meshing_; }
 
     /// The curve at the nodes.
-    CurveSamples<S> at_nodes(const Meridian<S>& shape) const {
-        const auto basis = TrigonometricBasis<S>::of_degree(shape.elements());
-        CurveSamples<S> curve{shape.r,
-                              shape.z,
-                              basis->odd_first() * shape.r,
-                              basis->even_first() * shape.z,
-                              basis->odd_second() * shape.r,
-                              basis->even_second() * shape.z,
-                              {}};
-        curve.finish();
-        return curve;
-    }
+    CurveSamples<S> at_nodes(const Meridian<S>& shape) const { return detail::series_curve(shape); }
     /// At the points of a rule that is exact for the volume.
     CurveSamples<S> fine(const Meridian<S>& shape) const {
         const auto& at = TrigonometricBasis<S>::of_degree(shape.elements())->fine();

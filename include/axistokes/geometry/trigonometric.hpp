@@ -8,6 +8,7 @@
 
 #include "../quadrature/computed_once.hpp"
 #include "../quadrature/gauss_legendre.hpp"
+#include "curve_samples.hpp"
 
 #include <Eigen/Core>
 
@@ -285,4 +286,22 @@ class TrigonometricBasis {
     Sampling fine_;
 };
 
+namespace detail {
+
+/// A meridian of series at its nodes.
+template <class S>
+CurveSamples<S> series_curve(const Meridian<S>& m) {
+    const auto basis = TrigonometricBasis<S>::of_degree(m.elements());
+    CurveSamples<S> curve{m.r,
+                          m.z,
+                          basis->odd_first() * m.r,
+                          basis->even_first() * m.z,
+                          basis->odd_second() * m.r,
+                          basis->even_second() * m.z,
+                          {}};
+    curve.finish();
+    return curve;
+}
+
+}  // namespace detail
 }  // namespace axistokes

@@ -25,9 +25,7 @@ class AdaptiveBasis {
           stencils_(local_stencils<S>(half)),
           r_(m.r, -1, half),
           z_(m.z, 1, half) {
-        using std::max;
         using std::sqrt;
-        // The curve is a little longer than its chord: by the middle of the element, and the slopes at its ends.
         speed_.resize(panels());
         for (Index e = 0; e < panels(); ++e) {
             S largest = 0;
@@ -67,16 +65,7 @@ class AdaptiveBasis {
         return points;
     }
 
-    std::vector<PanelSide<S>> sides(Index node) const {
-        std::vector<PanelSide<S>> result;
-        if (node > 0) {
-            result.push_back({node - 1, S(1), S(0)});
-        }
-        if (node < panels()) {
-            result.push_back({node, S(0), S(1)});
-        }
-        return result;
-    }
+    std::vector<PanelSide<S>> sides(Index node) const { return sides_of_joint<S>(node, panels()); }
 
     void evaluate(LayerPoints<S>& points, bool normals) const {
         using std::sqrt;

@@ -40,16 +40,7 @@ class ElementBasis : public LocalShares<S, 2> {
     Index fixed_order() const { return 0; }
     LayerPoints<S> fixed(bool) const { return {}; }
 
-    std::vector<PanelSide<S>> sides(Index node) const {
-        std::vector<PanelSide<S>> result;
-        if (node > 0) {
-            result.push_back({node - 1, S(1), S(0)});
-        }
-        if (node < panels()) {
-            result.push_back({node, S(0), S(1)});
-        }
-        return result;
-    }
+    std::vector<PanelSide<S>> sides(Index node) const { return sides_of_joint<S>(node, panels()); }
 
     void evaluate(LayerPoints<S>& points, bool normals) const {
         const std::size_t count = points.t.size();

@@ -55,6 +55,19 @@ struct PanelSide {
     S to;
 };
 
+/// Where node i joins the panels i - 1 and i, with t in [0, 1].
+template <class S>
+std::vector<PanelSide<S>> sides_of_joint(Index node, Index panels) {
+    std::vector<PanelSide<S>> result;
+    if (node > 0) {
+        result.push_back({node - 1, S(1), S(0)});
+    }
+    if (node < panels) {
+        result.push_back({node, S(0), S(1)});
+    }
+    return result;
+}
+
 /// Eq. (1).
 template <class Kernel>
 struct SingleLayer {

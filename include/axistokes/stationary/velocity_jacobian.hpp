@@ -47,18 +47,6 @@ class MobilityChange {
     Index degree() const { return degree_; }
 
     /// For an iteration: one-sided differences, the first three quarters of the modes.
-    /// To the meridian of that degree, or of the first above it that carries the shape: a thin tube takes more.
-    static Index coarsen(Configuration<S>& body, Index degree) {
-        const Meridian<S> fine = std::move(body.shape);
-        body.shape = resampled(fine, degree);
-        while (degree < fine.elements() && !fault(body.shape).empty()) {
-            degree = std::min((3 * degree) / 2, fine.elements());
-            body.shape = resampled(fine, degree);
-        }
-        body.tension.resize(0);
-        return degree;
-    }
-
     void find(SceneType& scene, SceneType& coarse, const Point& point, Index degree) {
         find(scene, coarse, point, degree, false);
     }
@@ -144,6 +132,18 @@ class MobilityChange {
         const Index n = values.size() / 2;
         const auto down = SeriesTransfer<S>::between(n - 1, degrees_[body]);
         return stacked<S>(down->odd * values.head(n), down->even * values.tail(n));
+    }
+
+    /// To the meridian of that degree, or of the first above it that carries the shape: a thin tube takes more.
+    static Index coarsen(Configuration<S>& body, Index degree) {
+        const Meridian<S> fine = std::move(body.shape);
+        body.shape = resampled(fine, degree);
+        while (degree < fine.elements() && !fault(body.shape).empty()) {
+            degree = std::min((3 * degree) / 2, fine.elements());
+            body.shape = resampled(fine, degree);
+        }
+        body.tension.resize(0);
+        return degree;
     }
 
     void find(SceneType& scene, SceneType& coarse, const Point& point, Index degree, bool accurately) {
