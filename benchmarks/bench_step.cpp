@@ -65,6 +65,25 @@ void time_step(benchmark::State& state) {
 
 constexpr std::initializer_list<std::int64_t> kElements{32, 64, 130, 260};
 
+/// The second argument: with a referee, or without.
+template <class Discretization>
+void judged_step(benchmark::State& state) {
+    const Discretization discretization;
+    SimulationParams<double> params;
+    params.time_step = 1e-7;
+    params.tolerance = 1e-12;
+    params.referee = state.range(1) != 0;
+    const auto shape = [](Index elements) {
+        return spheroid_of_excess_area<double>(0.6, SpheroidKind::prolate, elements);
+    };
+    Simulator simulator(
+        Scene(FreeSpaceKernel<double>(), discretization, Vesicle<double>(), Gravity<double>(47), DenseLU<double>()),
+        SemiImplicitEuler(), nodes_of(discretization, shape, state.range(0)), params);
+    for (auto _ : state) {
+        simulator.step();
+    }
+}
+
 }  // namespace
 
 BENCHMARK(single_layer)->ArgsProduct({kElements, {6, 8, 12}})->Unit(benchmark::kMillisecond);
@@ -81,3 +100,12 @@ BENCHMARK_TEMPLATE(time_step, SemiImplicitEuler, DenseQR<double>)
     ->ArgsProduct({kElements})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(time_step, ExplicitEuler, DenseLU<double>)->ArgsProduct({kElements})->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(judged_step, LinearElements<double>)
+    ->ArgsProduct({{32, 64, 128, 256}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(judged_step, SpectralMeridian<double>)
+    ->ArgsProduct({{16, 32, 64, 128}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(judged_step, AdaptiveMeridian<double>)
+    ->ArgsProduct({{48, 96, 192}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);

@@ -58,13 +58,11 @@ int run_body(const BodyCase& given) {
         driver_params.elements = c.run.elements_or(c.elements);
     }
     Driver driver(simulation, driver_params, [](const Simulation&) { return true; });
-    Ending ending;
-    ending.result = driver.run();
+    Ending ending = run_to_the_end(driver, begin);
     if (c.surroundings.tube_radius) {
         // No number of elements tells what the integrals lack.
         ending.result.error_estimate += c.tolerance / (10 * remainder(relative_gap(c)));
     }
-    ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     nlohmann::ordered_json summary = summarize(driver.simulation(), ending);
     summary["discretization"] = c.run.method.discretization_name();
     if (c.run.method.preset) {
@@ -73,9 +71,10 @@ int run_body(const BodyCase& given) {
     if (c.surroundings.tube_radius) {
         summary.update(tube_summary(driver.simulation(), ending, c.mean_velocity));
     }
-    const auto& instant = *ending.result.instant();
-    summary.update(
-        c.details({instant.surface.nodes, instant.surface.weight, instant.solution.force, instant.velocity}));
+    if (const auto* instant = ending.result.instant()) {
+        summary.update(
+            c.details({instant->surface.nodes, instant->surface.weight, instant->solution.force, instant->velocity}));
+    }
     summary["parameters"] = c.parameters;
     return conclude(driver.simulation(), ending, c.run, Frames(), summary);
 }

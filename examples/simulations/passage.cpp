@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Follows a vesicle through a channel and writes what came of it.
 #include "../support/exit_code.hpp"
-#include "../support/neck.hpp"
 #include "../support/passage_case.hpp"
 #include "../support/progress.hpp"
 #include "../support/results.hpp"
+#include <axistokes/geometry/necks.hpp>
 #include <axistokes/geometry/shapes.hpp>
 #include <axistokes/io/csv.hpp>
 #include <axistokes/wall/passage.hpp>
@@ -181,6 +181,7 @@ class PassageRun {
         params.largest_displacement = options_.displacement;
         params.step_tolerance = options_.step_tolerance.value_or(accuracy_.step);
         params.most_steps = options_.most_steps;
+        params.referee = !options_.method.no_referee;
         return Simulation(
             Scene(OptionalTubeKernel(OptionalTubeImages()), discretization_, Law(Vesicle()),
                   Drive(axistokes::Quiescent<double>()), Solver(), AnyWall(AnyWall::Mesh(profile_, wall))),
@@ -250,7 +251,8 @@ class PassageRun {
         if (std::abs(velocity) < stuck * now().scene().velocity_scale()) {
             cause << "the vesicle is stuck at z = " << position()
                   << ": this flow rate does not press it through the throat";
-        } else if (const auto neck = thinnest_neck(now().shape()); neck && neck->radius < neck->element / 2) {
+        } else if (const auto neck = axistokes::thinnest_neck(now().shape());
+                   neck && neck->radius < neck->element / 2) {
             cause << "the membrane pinches off at z = " << neck->z << ": the radius of its neck, " << neck->radius
                   << ", is less than half of an element there";
         }

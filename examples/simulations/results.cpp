@@ -40,6 +40,7 @@ void describe_ending(const Ending& ending, nlohmann::ordered_json& summary) {
                                                                      : nlohmann::ordered_json(nullptr);
     summary["error_met"] = result.error_met();
     summary["accuracy"] = result.eps;
+    summary["power_mismatch"] = result.power_mismatch;
     if (!result.newton_failure.empty()) {
         summary["newton_failure"] = result.newton_failure;
     }

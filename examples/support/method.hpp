@@ -27,6 +27,7 @@ struct MethodOptions {
     std::string usual_integrator = "euler";
     std::string stationary = "auto";
     std::optional<std::string> preset;
+    bool no_referee = false;
 
     /// `rigid`: the integrator and the way to the stationary state are accepted, and make no difference.
     void add_to(CommandLine& app, bool rigid = false);

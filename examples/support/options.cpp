@@ -25,6 +25,7 @@ void MethodOptions::add_to(CommandLine& app, bool rigid) {
     app.text("--preset-accuracy", preset,
              "fast (1e-3), balanced (1e-6) or reference (1e-10): every tolerance and the number of elements" +
                  (preset ? " (default: " + *preset + ")" : std::string()));
+    app.flag("--no-referee", no_referee, "go on with numbers that cannot be true (docs/referee.md)");
 }
 
 void RunOptions::add_to(CommandLine& app) {

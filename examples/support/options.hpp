@@ -105,6 +105,7 @@ struct RunOptions {
         params.longest_time = time.value_or(params.longest_time);
         params.landing_times = frame_times;
         params.most_steps = steps.value_or(params.most_steps);
+        params.referee = !method.no_referee;
         return params;
     }
 };

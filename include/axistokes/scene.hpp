@@ -40,6 +40,11 @@ struct Instant {
     S pressure_drop{};
     /// Largest difference of the undisturbed flow along an element over its length.
     S shear_rate{};
+    /// Largest velocity of the undisturbed flow at a node.
+    S undisturbed_speed{};
+    /// Power of the body's forces in the flow that all bodies add to the undisturbed one: summed over the bodies it is
+    /// the viscous dissipation of that flow, in kappa^2/(eta R0^3).
+    S power{};
 };
 
 /// How close a body comes to the wall, and to other bodies, in R0; infinite where there are none.
@@ -87,6 +92,14 @@ std::pair<S, Vector<S>> relative_normal_velocity(const Surface& surface, const V
     const S velocity = moment.dot(w) / moment.dot(surface.normal_z);
     w -= velocity * surface.normal_z;
     return {velocity, std::move(w)};
+}
+
+/// Int f.u dA of fields at the nodes, stacked.
+template <class S, class Surface>
+S power(const Surface& surface, const Vector<S>& force, const Vector<S>& velocity) {
+    const Index n = surface.size();
+    return surface.weight.dot(force.head(n).cwiseProduct(velocity.head(n)) +
+                              force.tail(n).cwiseProduct(velocity.tail(n)));
 }
 
 template <class S>
@@ -168,6 +181,7 @@ class Scene {
         Surface reference;  // of a law that carries one
         Vector<Scalar> load;
         Scalar shear_rate{};
+        Scalar undisturbed_speed{};
     };
     /// What an evaluation needs of a state however implicit it is: the costly part. Matrix and vectors are those of all
     /// nodes, body after body.
@@ -231,6 +245,9 @@ class Scene {
             instant.node_velocity = node_velocity(b, instant, bodies[b].slip, deformation);
             instant.deformation_rate = deforms(b) ? deformation.cwiseAbs().maxCoeff() : Scalar(0);
             const Index n = state[b].shape.nodes();
+            instant.undisturbed_speed = frozen.bodies[b].undisturbed_speed;
+            instant.power = detail::power<Scalar>(instant.surface, instant.solution.force,
+                                                  instant.solution.velocity - frozen.background.segment(begin, 2 * n));
             if (frozen.unit_flow.size() > 0) {
                 // By the reciprocal theorem with the flow of unit flow rate.
                 for (Index i = 0; i < n; ++i) {
@@ -476,8 +493,13 @@ class Scene {
         for (std::size_t b = 0; b < state.size(); ++b) {
             FrozenBody& body = frozen.bodies[b];
             body.shear_rate = shear_rate(state[b].shape, frozen.background, begin);
+            const Index n = state[b].shape.nodes();
+            const Vector<Scalar> speed =
+                (frozen.background.segment(begin, n).cwiseAbs2() + frozen.background.segment(begin + n, n).cwiseAbs2())
+                    .cwiseSqrt();
+            body.undisturbed_speed = speed.maxCoeff();
             bodies.push_back({law(b), body.surface, body.load, state[b].tension, {}});
-            begin += 2 * state[b].shape.nodes();
+            begin += 2 * n;
         }
         detail::complete_rank<Scalar>(bodies, frozen.mobility, frozen.background);
         return frozen;

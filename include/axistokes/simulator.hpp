@@ -3,6 +3,7 @@
 #pragma once
 
 #include "geometry/conserved.hpp"
+#include "referee.hpp"
 #include "scene.hpp"
 #include "step_control.hpp"
 
@@ -52,7 +53,9 @@ struct StepRecord {
     S neighbour_distance = std::numeric_limits<S>::infinity();  // to the nearest other body
     S step_error{};                                             // estimated, in R0; integrators with an estimate only
     S pressure_drop{};                                          // added by the body, in kappa/R0^3; 0 without walls
-    Index rejected = 0;                                         // attempts with larger steps before this one
+    S power{};           // of the body's forces in the flow that the bodies add, in kappa^2/(eta R0^3)
+    S power_mismatch{};  // of all bodies: Verdict; 0 without a referee
+    Index rejected = 0;  // attempts with larger steps before this one
     bool redistributed = false;
 };
 
@@ -66,6 +69,8 @@ struct SimulationParams : StepControlParams<S> {
     S longest_time = std::numeric_limits<S>::max();
     /// Automatic steps end at each of these times too.
     std::vector<S> landing_times{};
+    /// Whether each step's numbers are judged (Referee): one that cannot be true is a failure.
+    bool referee = true;
 };
 
 namespace detail {
@@ -194,6 +199,12 @@ class Simulator {
     }
     const InstantType& instant(std::size_t body = 0) { return moment().instants.at(body); }
 
+    /// Of the current state, by the referee, whether it judges steps or not. Throws SimulationFailure.
+    Verdict<Scalar> verdict() {
+        const Moment& now = moment();
+        return Referee<SceneType>(scene_).judge(now.bodies, now.instants);
+    }
+
     /// Goes on with `elements` elements on the current curve of a body. Throws InvalidArgument for fewer than 8 and
     /// SimulationFailure, leaving the state as it was, if they cannot carry the shape.
     void refine(Index elements, std::size_t body = 0) {
@@ -211,6 +222,7 @@ class Simulator {
         moment_.bodies[body] = std::move(refined);
         moment_.instants.clear();
         motion_.resize(0);
+        starts_ = true;
         films_ = scene_.films(moment_.bodies);
     }
 
@@ -233,6 +245,10 @@ class Simulator {
                 accept(std::move(next), planned, rejected);
                 return histories_.front().back();
             } catch (const SimulationFailure& failure) {
+                if (dynamic_cast<const Untrue*>(&failure) &&
+                    (control_.fixed() || (refused_ += good_steps) > 3 * good_steps)) {
+                    fail(failure.what());
+                }
                 const auto* rejection = dynamic_cast<const StepRejected*>(&failure);
                 if (control_.fixed()) {
                     fail("time step " + detail::text(dt) + " is too large: " + failure.what());
@@ -278,7 +294,15 @@ class Simulator {
         Films<Scalar> films;
         Vector<Scalar> motion;  // displacements of the nodes of all bodies, stacked
         StepReport<Scalar> report;
+        bool resolved = false;
     };
+
+    /// A state whose numbers cannot be true. If shorter steps lead to one too the steps are not the cause, nor if they
+    /// only come closer and closer to it.
+    struct Untrue : StepRejected {
+        explicit Untrue(const std::string& cause) : StepRejected(cause, 0.25) {}
+    };
+    static constexpr int good_steps = 10;  // that outweigh one
 
     Index steps() const { return static_cast<Index>(histories_.front().size()); }
 
@@ -344,7 +368,22 @@ class Simulator {
         for (std::size_t b = 0; b < attempt.records.size(); ++b) {
             describe(attempt, b, dt);
         }
+        if (params_.referee) {
+            judge(attempt);
+        }
         return attempt;
+    }
+
+    void judge(Attempt& attempt) const {
+        const Moment& next = attempt.moment;
+        const Verdict<Scalar> verdict = Referee<SceneType>(scene_).judge(next.bodies, next.instants, starts_);
+        if (!verdict.fault.empty()) {
+            throw Untrue(verdict.fault);
+        }
+        attempt.resolved = Referee<SceneType>::resolved(verdict);
+        for (Record& record : attempt.records) {
+            record.power_mismatch = verdict.power_mismatch;
+        }
     }
 
     /// Displacements relative to the centroids, and what the step control wants to know of them.
@@ -466,6 +505,7 @@ class Simulator {
         const Scalar apart = abs(instant.velocity - attempt.moment.instants.front().velocity);
         record.residual = std::max(instant.deformation_rate, apart) / std::max(Scalar(1), scene_.velocity_scale());
         record.pressure_drop = instant.pressure_drop;
+        record.power = instant.power;
         record.length = body.shape.z[body.shape.nodes() - 1] - body.shape.z[0];
         record.max_radius = scene_.discretization().max_radius(body.shape);
         const FilmThickness<Scalar>& film = attempt.films.bodies[b];
@@ -485,6 +525,8 @@ class Simulator {
         time_ = attempt.records.front().time;
         moment_ = std::move(attempt.moment);
         films_ = std::move(attempt.films);
+        starts_ = starts_ && !attempt.resolved;
+        refused_ = std::max(0, refused_ - 1);
         bool redistributed = false;
         for (std::size_t b = 0; b < histories_.size(); ++b) {
             attempt.records[b].rejected = rejected;
@@ -507,6 +549,8 @@ class Simulator {
     std::vector<Conserved<Scalar>> conserved_;
     Films<Scalar> films_;
     Vector<Scalar> motion_;  // of the last step
+    bool starts_ = true;     // whether the elements have not yet carried a shape
+    int refused_ = 0;        // good_steps for every attempt that was untrue, less the steps since
     Scalar time_{};
 };
 

@@ -35,6 +35,8 @@ struct DriverResult {
     /// Relative, of velocity and length; infinite if there is no telling.
     S error_estimate = std::numeric_limits<S>::infinity();
     S eps{};
+    /// Largest of all steps, or of the state Newton's method found (Verdict): what energy says of the forces' error.
+    S power_mismatch{};
     /// Why Newton's method, or more elements, did not work; empty if they did, or were not tried.
     std::string newton_failure;
     std::string refinement_failure;
@@ -109,6 +111,7 @@ class Driver {
     }
 
   private:
+    using TheReferee = Referee<typename Simulator::SceneType>;
     static constexpr bool can_judge = JudgesItself<Discretization>;
     static constexpr bool deformable = Simulator::SceneType::deformable;
 
@@ -381,6 +384,9 @@ class Driver {
             estimate_from_coarser();
         }
         take();
+        if (steps() > 0 && simulator_->history().back().power_mismatch > S(TheReferee::largest_mismatch)) {
+            result_.error_estimate = std::numeric_limits<S>::infinity();
+        }
     }
 
     std::size_t rigid_bodies() const {
@@ -440,10 +446,25 @@ class Driver {
             now = finer;
         }
         take();
+        const S error = std::exchange(result_.error_estimate, std::numeric_limits<S>::infinity());
+        require_true(result_.bodies, result_.instants);
+        result_.error_estimate = error;
         // Stationary at once, if they move alike.
         const S scale = std::max(S(1), simulator_->scene().velocity_scale());
         result_.residual = (now.first.array() - now.first[0]).abs().maxCoeff() / scale;
         result_.stationary = *result_.residual < simulator_->params().tolerance;
+    }
+
+    /// Throws SimulationFailure if the numbers cannot be true; else what they are out by.
+    S require_true(const State& bodies, const typename Simulator::SceneType::Instants& instants) const {
+        if (!simulator_->params().referee) {
+            return S(0);
+        }
+        const auto verdict = TheReferee(simulator_->scene()).judge(bodies, instants);
+        if (!verdict.fault.empty()) {
+            throw SimulationFailure(verdict.fault);
+        }
+        return verdict.power_mismatch;
     }
 
     /// Two results may agree by chance where a gap is hardly resolved.
@@ -680,6 +701,10 @@ class Driver {
             // Reported already: the run cannot have ended well on such a shape.
         }
         result_.stationary = simulator_->stationary();
+        result_.power_mismatch = 0;
+        for (const auto& record : simulator_->history()) {
+            result_.power_mismatch = std::max<S>(result_.power_mismatch, record.power_mismatch);
+        }
         if (steps() > 0) {
             result_.residual = simulator_->residual();
             if (!result_.velocity) {
@@ -814,6 +839,7 @@ class Driver {
                             result_.newton_evaluations += finer.evaluations;
                         }
                     }
+                    require_true(finer.bodies, finer.instants);
                     if (!spectral()) {
                         error = S(largest_error(measured(state), measured(finer)));
                     }
@@ -973,6 +999,7 @@ class Driver {
             body.position += along;
         }
         result_.instants = state.instants;
+        result_.power_mismatch = require_true(state.bodies, state.instants);
         result_.velocity = state.instants.front().velocity;
         result_.residual = state.residual;
         result_.stationary = true;

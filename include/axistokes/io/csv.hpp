@@ -102,6 +102,8 @@ std::vector<Column<S>> history_columns(const std::vector<StepRecord<S>>& history
     add("volume_error", &Record::volume_error);
     add("bending_energy", &Record::bending_energy);
     add("residual", &Record::residual);
+    add("power", &Record::power);
+    add("power_mismatch", &Record::power_mismatch);
     if (!history.empty() && std::isfinite(static_cast<double>(history.back().film_thickness_min))) {
         add("film_thickness_min", &Record::film_thickness_min);
         add("film_thickness_mean", &Record::film_thickness_mean);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../core.hpp"
+#include "../geometry/meridian.hpp"
 
 #include <concepts>
 #include <optional>
@@ -93,6 +94,9 @@ concept CarryingLaw = requires(const L& law, const Surface& surface, const Surfa
 /// steps
 ///   are stable; it need not be exact. `tension` is the constraint's, of the previous step, or empty;
 /// - `conserves_area`: whether the interface's area is a constant of the motion. Its volume always is.
+///
+/// It may have `energy(discretization, shape)`, in kappa, of which the force is the derivative: the referee then holds
+/// one against the other.
 ///
 /// Elastic laws say `carries_reference = true`: their nodes follow the material, and both functions are given its
 /// surface at the start, node by node, as a second argument: `force(surface, reference)`.
@@ -188,6 +192,31 @@ bool keeps_area(const L& law) {
             return true;
         } else {
             return bool(Kind::conserves_area);
+        }
+    });
+}
+
+/// Empty if the law does not tell its energy.
+template <class L, class Discretization, class S>
+std::optional<S> energy_of(const L& law, const Discretization& discretization, const Meridian<S>& shape) {
+    return LawKinds<L>::visit(law, [&](const auto& kind) -> std::optional<S> {
+        if constexpr (requires { S(kind.energy(discretization, shape)); }) {
+            return kind.energy(discretization, shape);
+        } else {
+            return std::nullopt;
+        }
+    });
+}
+
+/// The velocity that a rigid body is given; empty for others.
+template <class L>
+auto given_velocity(const L& law) {
+    using S = typename L::Scalar;
+    return LawKinds<L>::visit(law, [](const auto& kind) -> std::optional<S> {
+        if constexpr (std::decay_t<decltype(kind)>::constraint == Constraint::rigid) {
+            return kind.velocity;
+        } else {
+            return std::nullopt;
         }
     });
 }

@@ -36,6 +36,12 @@ class Vesicle {
         return force;
     }
 
+    /// Bending energy 2 Int H^2 dA, in kappa.
+    template <class Discretization>
+    static S energy(const Discretization& discretization, const Meridian<S>& shape) {
+        return discretization.bending_energy(shape);
+    }
+
     /// Positions -> bending force density (2n x 2n), linear with the normals, metric and curvature factor of `surface`
     /// frozen: applied to the surface's own positions it is the bending force. Tension also resists the curvature
     /// created during a step, at its previous value, as far as that is positive. Of a DifferentiableSurface: the
