@@ -10,6 +10,7 @@
 #include "flow/background.hpp"
 #include "geometry/tube_shapes.hpp"
 #include "io/csv.hpp"
+#include "io/step_journal.hpp"
 #include "io/vtk.hpp"
 #include "kernel/free_space.hpp"
 #include "kernel/imaged.hpp"

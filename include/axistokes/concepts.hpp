@@ -141,4 +141,12 @@ concept WallFor = requires(W& wall, const Discretization& discretization, const 
     { wall.centreline_velocity(z) } -> std::convertible_to<typename Kernel::Scalar>;
 };
 
+/// A wall on whose earlier evaluations later ones depend: `memory()` is all that they do, in numbers, and
+/// `recall(memory)` makes an equal wall go on from there.
+template <class W>
+concept RemembersEvaluations = requires(W& wall, const W& constant, const Vector<typename W::Scalar>& memory) {
+    { constant.memory() } -> std::convertible_to<Vector<typename W::Scalar>>;
+    wall.recall(memory);
+};
+
 }  // namespace axistokes

@@ -15,6 +15,9 @@
 
 namespace axistokes {
 
+/// Of the library.
+inline constexpr const char* version = "0.1.0";
+
 using Index = Eigen::Index;
 
 template <class S>

@@ -288,6 +288,21 @@ class Scene {
         }
     }
 
+    /// What the wall keeps between evaluations; empty if that is nothing.
+    Vector<Scalar> memory() const {
+        if constexpr (RemembersEvaluations<Wall>) {
+            return wall_.memory();
+        } else {
+            return {};
+        }
+    }
+    /// Goes on with what a scene like this one kept.
+    void recall(const Vector<Scalar>& memory) {
+        if constexpr (RemembersEvaluations<Wall>) {
+            wall_.recall(memory);
+        }
+    }
+
     /// A typical velocity of what drives the scene.
     Scalar velocity_scale() const { return std::max<Scalar>(flow_.velocity_scale(), Scalar(wall_.velocity_scale())); }
 

@@ -6,10 +6,12 @@
 #include "referee.hpp"
 #include "scene.hpp"
 #include "step_control.hpp"
+#include "step_record.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,37 +28,6 @@ concept TimeIntegratorFor = requires(const T& integrator, SceneType& scene, cons
                                      typename SceneType::Scalar dt) {
     { integrator.order } -> std::convertible_to<int>;
     { integrator.step(scene, start, dt).bodies } -> std::convertible_to<typename SceneType::State>;
-};
-
-/// One line of a body's history: the state a step arrived at, all of it at that one instant. Dimensionless: lengths in
-/// R0, times in eta R0^3/kappa, velocities in kappa/(eta R0^2), energies in kappa.
-template <class S>
-struct StepRecord {
-    Index step = 0;
-    S time{};
-    S dt{};
-    S position{};  // centroid in the laboratory frame
-    S velocity{};  // of the centroid
-    S length{};    // along the axis
-    S max_radius{};
-    S area{};
-    S volume{};
-    S area_drift{};  // relative to the initial shape, after the step's correction
-    S volume_drift{};
-    S area_error{};  // relative change in this step before the correction
-    S volume_error{};
-    S bending_energy{};  // 2 Int H^2 dA; 0 for a rigid body
-    S residual{};  // largest normal velocity relative to the centroid, or of it relative to the first body's, over the
-                   // velocity scale
-    S film_thickness_min = std::numeric_limits<S>::infinity();  // distance to the wall, along the curve
-    S film_thickness_mean = std::numeric_limits<S>::infinity();
-    S neighbour_distance = std::numeric_limits<S>::infinity();  // to the nearest other body
-    S step_error{};                                             // estimated, in R0; integrators with an estimate only
-    S pressure_drop{};                                          // added by the body, in kappa/R0^3; 0 without walls
-    S power{};           // of the body's forces in the flow that the bodies add, in kappa^2/(eta R0^3)
-    S power_mismatch{};  // of all bodies: Verdict; 0 without a referee
-    Index rejected = 0;  // attempts with larger steps before this one
-    bool redistributed = false;
 };
 
 /// Step control and stationarity of a Simulator.
@@ -223,44 +194,27 @@ class Simulator {
         moment_.instants.clear();
         motion_.resize(0);
         starts_ = true;
+        refused_ = 0;
         films_ = scene_.films(moment_.bodies);
     }
 
-    /// One time step; the first body's record. Throws SimulationFailure, leaving the state as it was.
+    /// From now on takes the steps, and failures, that the recorder has instead of computing them; those it does not
+    /// have are recorded there. The states are the same, bit for bit, if the simulation is that of the run recorded and
+    /// no policy but the wall keeps anything between steps.
+    void record_in(std::shared_ptr<StepRecorder<Scalar>> recorder) { recorder_ = std::move(recorder); }
+
+    /// One time step; the first body's record. Throws SimulationFailure, leaving the state as it was; InvalidArgument
+    /// if the next recorded step is none of this simulation; and what the recorder throws, after the step.
     const Record& step() {
-        Index rejected = 0;
-        Scalar planned = control_.step();
-        Scalar dt = planned;
-        if (const auto landing = next_landing(); !control_.fixed() && landing) {
-            dt = std::min(dt, Scalar(*landing - time_));
+        if (!recorder_) {
+            RecordedStep<Scalar> unrecorded;
+            advance(unrecorded);
+        } else if (const auto recorded = recorder_->next()) {
+            repeat(*recorded);
+        } else {
+            advance_and_record();
         }
-        try {
-            moment();
-        } catch (const SimulationFailure& failure) {
-            fail(failure.what());
-        }
-        for (;;) {
-            try {
-                Attempt next = attempt(dt);
-                accept(std::move(next), planned, rejected);
-                return histories_.front().back();
-            } catch (const SimulationFailure& failure) {
-                if (dynamic_cast<const Untrue*>(&failure) &&
-                    (control_.fixed() || (refused_ += good_steps) > 3 * good_steps)) {
-                    fail(failure.what());
-                }
-                const auto* rejection = dynamic_cast<const StepRejected*>(&failure);
-                if (control_.fixed()) {
-                    fail("time step " + detail::text(dt) + " is too large: " + failure.what());
-                }
-                dt = planned = dt * Scalar(rejection ? rejection->factor() : 0.5);
-                ++rejected;
-                if (!control_.shorten(dt)) {
-                    fail("the time step fell below " + detail::text(params_.smallest_time_step) + ": " +
-                         failure.what());
-                }
-            }
-        }
+        return histories_.front().back();
     }
 
     /// Steps until stationary (true), or until most_steps or longest_time (false). `observe(record)` is called after
@@ -317,6 +271,100 @@ class Simulator {
     [[noreturn]] void fail(const std::string& cause) const {
         throw SimulationFailure("step " + std::to_string(steps() + 1) + " at time " + detail::text(time_) + ": " +
                                 cause);
+    }
+
+    /// The step as far as it is not in the state afterwards: what was planned, tried in vain and reported.
+    void advance(RecordedStep<Scalar>& made) {
+        Scalar planned = control_.step();
+        Scalar dt = planned;
+        if (const auto landing = next_landing(); !control_.fixed() && landing) {
+            dt = std::min(dt, Scalar(*landing - time_));
+        }
+        try {
+            moment();
+        } catch (const SimulationFailure& failure) {
+            fail(failure.what());
+        }
+        for (;;) {
+            try {
+                Attempt next = attempt(dt);
+                made.planned = planned;
+                made.report = next.report;
+                made.resolved = next.resolved;
+                accept(std::move(next), made);
+                return;
+            } catch (const SimulationFailure& failure) {
+                if (dynamic_cast<const Untrue*>(&failure)) {
+                    ++made.refused;
+                    refused_ += good_steps;
+                    if (control_.fixed() || refused_ > 3 * good_steps) {
+                        fail(failure.what());
+                    }
+                }
+                const auto* rejection = dynamic_cast<const StepRejected*>(&failure);
+                if (control_.fixed()) {
+                    fail("time step " + detail::text(dt) + " is too large: " + failure.what());
+                }
+                dt = planned = dt * Scalar(rejection ? rejection->factor() : 0.5);
+                made.shortened.push_back(dt);
+                if (!control_.shorten(dt)) {
+                    fail("the time step fell below " + detail::text(params_.smallest_time_step) + ": " +
+                         failure.what());
+                }
+            }
+        }
+    }
+
+    void advance_and_record() {
+        RecordedStep<Scalar> made;
+        made.step = steps() + 1;
+        made.begin = time_;
+        try {
+            advance(made);
+        } catch (const SimulationFailure& failure) {
+            made.failure = failure.what();
+            made.wall = scene_.memory();
+            recorder_->append(std::move(made));
+            throw;
+        }
+        made.bodies = moment_.bodies;
+        for (const std::vector<Record>& history : histories_) {
+            made.records.push_back(history.back());
+        }
+        made.motion = motion_;
+        made.wall = scene_.memory();
+        recorder_->append(std::move(made));
+    }
+
+    /// Arrives where the recorded step did.
+    void repeat(const RecordedStep<Scalar>& recorded) {
+        require_fitting(recorded);
+        for (const Scalar& dt : recorded.shortened) {
+            control_.shorten(dt);
+        }
+        refused_ += recorded.refused * good_steps;
+        scene_.recall(recorded.wall);
+        if (!recorded.failure.empty()) {
+            throw SimulationFailure(recorded.failure);
+        }
+        Attempt attempt;
+        attempt.moment.bodies = recorded.bodies;
+        attempt.records = recorded.records;
+        attempt.films = scene_.films(recorded.bodies);
+        attempt.motion = recorded.motion;
+        attempt.report = recorded.report;
+        accept(std::move(attempt), recorded);
+    }
+
+    void require_fitting(const RecordedStep<Scalar>& recorded) const {
+        const auto fits = [](const auto& a, const auto& b) { return a.shape.nodes() == b.shape.nodes(); };
+        const bool made = recorded.failure.empty();
+        const bool ok =
+            recorded.step == steps() + 1 && recorded.begin == time_ &&
+            (!made || std::equal(recorded.bodies.begin(), recorded.bodies.end(), state().begin(), state().end(), fits));
+        detail::require(
+            ok, "recorded step", recorded.step,
+            ("step " + std::to_string(steps() + 1) + " of this simulation, at time " + detail::text(time_)).c_str());
     }
 
     /// The first of the longest time and the landing times that is yet to come.
@@ -519,13 +567,13 @@ class Simulator {
         }
     }
 
-    /// `planned`: the step before it was cut short to land.
-    void accept(Attempt attempt, const Scalar& planned, Index rejected) {
+    void accept(Attempt attempt, const RecordedStep<Scalar>& made) {
+        const auto rejected = static_cast<Index>(made.shortened.size());
         const Scalar before = residual();
         time_ = attempt.records.front().time;
         moment_ = std::move(attempt.moment);
         films_ = std::move(attempt.films);
-        starts_ = starts_ && !attempt.resolved;
+        starts_ = starts_ && !made.resolved;
         refused_ = std::max(0, refused_ - 1);
         bool redistributed = false;
         for (std::size_t b = 0; b < histories_.size(); ++b) {
@@ -534,7 +582,7 @@ class Simulator {
             histories_[b].push_back(attempt.records[b]);
         }
         attempt.report.accelerating = steps() > 1 && residual() > before;
-        control_.accept(attempt.report, planned, rejected > 0);
+        control_.accept(attempt.report, made.planned, rejected > 0);
         // On moved nodes displacements cannot be compared.
         motion_ = redistributed ? Vector<Scalar>() : std::move(attempt.motion);
     }
@@ -552,6 +600,7 @@ class Simulator {
     bool starts_ = true;     // whether the elements have not yet carried a shape
     int refused_ = 0;        // good_steps for every attempt that was untrue, less the steps since
     Scalar time_{};
+    std::shared_ptr<StepRecorder<Scalar>> recorder_;
 };
 
 template <class Kernel, class Discretization, class Law, class Flow, class Solver, class Wall, class Integrator,

@@ -92,7 +92,8 @@ class Driver {
     const Simulator& simulator() const { return *simulator_; }
     const Result& result() const { return result_; }
 
-    /// Throws SimulationFailure where the simulation cannot go on; result() then is that of the last good state.
+    /// Throws SimulationFailure where the simulation cannot go on, and OutputError where a step cannot be recorded;
+    /// result() then is that of the last good state.
     const Result& run() {
         try {
             if (!moves()) {
@@ -102,7 +103,7 @@ class Driver {
             } else {
                 find_stationary();
             }
-        } catch (const SimulationFailure&) {
+        } catch (...) {
             take();
             throw;
         }
@@ -320,7 +321,7 @@ class Driver {
             going = !rests && record.step < last && !simulator_->finished() && !stopped_;
             return going && !needy() && !unmet_needs();
         };
-        while (going && steps() < last && !simulator_->finished()) {
+        while (going && !stopped_ && steps() < last && !simulator_->finished()) {
             try {
                 resolve_films();
                 simulator_->run(observe);

@@ -2,7 +2,8 @@
 // Restarted GMRES, preconditioned by the LU factors of an earlier matrix (a policy for the linear solver).
 //
 // The matrices of consecutive time steps are close, so the factors of one serve as preconditioner for the next ones:
-// an iteration costs 4 n^2 operations instead of the 2/3 n^3 of a new factorisation.
+// an iteration costs 4 n^2 operations instead of the 2/3 n^3 of a new factorisation. What it returns depends on them,
+// to its tolerance: a run that goes on from recorded steps is not the same to the last bit.
 #pragma once
 
 #include "../core.hpp"

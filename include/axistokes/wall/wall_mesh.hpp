@@ -69,6 +69,27 @@ class WallMesh {
     /// How many meshes there have been: one, until the particle moves away from where the mesh is fine.
     Index meshes() const { return meshes_; }
 
+    /// That number, and the nodes that the current mesh was made for, r and z; empty without a mesh.
+    Vector<Scalar> memory() const {
+        Vector<Scalar> memory;
+        if (made_for_.nodes() > 0) {
+            memory.resize(1 + 2 * made_for_.nodes());
+            memory << Scalar(meshes_), made_for_.r, made_for_.z;
+        }
+        return memory;
+    }
+    /// The mesh of the equal wall that gave `memory`; made when it is needed.
+    void recall(const Vector<Scalar>& memory) {
+        const Vector<Scalar> now = this->memory();
+        if (memory.size() == now.size() && memory == now) {
+            return;
+        }
+        const Index n = memory.size() / 2;
+        mesh_.reset();
+        made_for_ = {memory.segment(memory.size() - 2 * n, n), memory.tail(n)};
+        meshes_ = memory.size() > 0 ? static_cast<Index>(memory[0]) : 0;
+    }
+
     /// Turns the bodies' mobility and background velocity without the wall into those in its presence. Returns the
     /// undisturbed flow of flow rate 1 at the nodes. Throws SimulationFailure when a node is not inside the wall.
     template <class Discretization, class Kernel>
@@ -159,6 +180,9 @@ class WallMesh {
     /// The particle in the mesh's coordinates, after making sure that there is a mesh for it.
     template <class Kernel>
     Meridian<Scalar> prepare(const Kernel& kernel, const Meridian<Scalar>& particle) {
+        if (!mesh_ && made_for_.nodes() > 0) {
+            make_mesh(kernel, made_for_);
+        }
         Meridian<Scalar> local = particle;
         local.z.array() -= centre(particle);
         for (Index i = 0; i < local.nodes(); ++i) {
@@ -166,24 +190,35 @@ class WallMesh {
                 throw SimulationFailure("the particle crosses the wall at node " + std::to_string(i));
             }
         }
-        if (!mesh_ || !mesh_->suits(local)) {
-            mesh_.emplace(profile_, params_, local);
+        const bool made_for_it = local.nodes() == made_for_.nodes() && local.r == made_for_.r && local.z == made_for_.z;
+        if (!mesh_ || !(made_for_it || mesh_->suits(local))) {
+            make_mesh(kernel, local);
             ++meshes_;
-            const PanelCurve<Scalar>& curve = mesh_->curve();
-            const Vector<Scalar> normals = curve.normals();
-            const Vector<Scalar> weights = curve.weights();
-            Vector<Scalar> flux(2 * curve.size());
-            flux << weights, weights;
-            flux.array() *= normals.array() / weights.sum();
-            Matrix<Scalar> system = curve.single_layer(kernel);
-            system.noalias() += normals * flux.transpose();
-            lu_.compute(system);
-            unit_traction_ = lu_.solve(mesh_->boundary_velocity());
-            if (!unit_traction_.allFinite()) {
-                throw SimulationFailure("wall mesh: the matrix is singular or not finite");
-            }
         }
         return local;
+    }
+
+    /// The mesh that is there stays if that fails.
+    template <class Kernel>
+    void make_mesh(const Kernel& kernel, const Meridian<Scalar>& particle) {
+        Mesh mesh(profile_, params_, particle);
+        const PanelCurve<Scalar>& curve = mesh.curve();
+        const Vector<Scalar> normals = curve.normals();
+        const Vector<Scalar> weights = curve.weights();
+        Vector<Scalar> flux(2 * curve.size());
+        flux << weights, weights;
+        flux.array() *= normals.array() / weights.sum();
+        Matrix<Scalar> system = curve.single_layer(kernel);
+        system.noalias() += normals * flux.transpose();
+        Eigen::PartialPivLU<Matrix<Scalar>> lu(system);
+        Vector<Scalar> unit_traction = lu.solve(mesh.boundary_velocity());
+        if (!unit_traction.allFinite()) {
+            throw SimulationFailure("wall mesh: the matrix is singular or not finite");
+        }
+        mesh_.emplace(std::move(mesh));
+        lu_ = std::move(lu);
+        unit_traction_ = std::move(unit_traction);
+        made_for_ = particle;
     }
 
     Profile profile_;
@@ -193,6 +228,7 @@ class WallMesh {
     Eigen::PartialPivLU<Matrix<Scalar>> lu_;
     Vector<Scalar> unit_traction_;  // of the empty channel at flow rate 1
     Index meshes_ = 0;
+    Meridian<Scalar> made_for_;  // in the mesh's coordinates
 };
 
 }  // namespace axistokes
