@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
     app.number("--frames", c.frames, "shapes kept in frames.csv, equally spaced in time");
     c.run.method.add_to(app);
     c.run.add_output_to(app);
+    app.resumable(c.run.directory, c.run.checkpoints);
 
     return app.run(argc, argv, [&] {
         using axistokes::detail::require;

@@ -25,6 +25,10 @@ if(MESSAGE)
 elseif(NOT errors STREQUAL "")
   message(FATAL_ERROR "unexpected output on standard error")
 endif()
+# Only a run that can be gone on with leaves one.
+if(EXISTS ${DIRECTORY}/run.journal)
+  message(FATAL_ERROR "run.journal is left over")
+endif()
 if(KEYS)
   # Of several bodies, shapes and histories are numbered.
   set(number "")

@@ -22,6 +22,7 @@ void examples::PassageOptions::add_to(CommandLine& app) {
     app.number("--max-steps", most_steps, "give up after this many steps");
     app.number("--frames", frames, "shapes to keep, evenly along the way");
     app.text("--out", directory, "directory for summary.json, shape.csv, history.csv, frames.csv and wall.csv");
+    app.resumable(directory, checkpoints);
 }
 
 int main(int argc, char** argv) {

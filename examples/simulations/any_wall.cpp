@@ -30,6 +30,16 @@ double AnyWall::centreline_velocity(double z) const {
     return mesh_ ? mesh_->centreline_velocity(z) : 0;
 }
 
+axistokes::Vector<double> AnyWall::memory() const {
+    return mesh_ ? mesh_->memory() : Vector();
+}
+
+void AnyWall::recall(const Vector& memory) {
+    if (mesh_) {
+        mesh_->recall(memory);
+    }
+}
+
 AnyWall AnyWall::reaching(double reach) const {
     return mesh_ ? AnyWall(mesh_->reaching(reach)) : AnyWall();
 }

@@ -76,7 +76,7 @@ int run_body(const BodyCase& given) {
             c.details({instant->surface.nodes, instant->surface.weight, instant->solution.force, instant->velocity}));
     }
     summary["parameters"] = c.parameters;
-    return conclude(driver.simulation(), ending, c.run, Frames(), summary);
+    return conclude(driver.simulation(), ending, c.run, Frames(), summary, nullptr);
 }
 
 }  // namespace examples

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Follows bodies in line and writes what came of them.
-#include "../support/exit_code.hpp"
 #include "../support/line_case.hpp"
 #include "../support/progress.hpp"
 #include "../support/results.hpp"
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -51,9 +51,6 @@ class LineRun {
         : case_(c), run_(c.run.resolved()), discretization_(discretization_for(run_.method)) {}
 
     int operator()() {
-        if (!run_.directory.empty()) {
-            axistokes::create_output_directory(run_.directory);
-        }
         const auto begin = std::chrono::steady_clock::now();
         const InterruptGuard guard;
         ProgressBar bar;
@@ -67,6 +64,8 @@ class LineRun {
                           visit(s, duration);
                           return !guard.interrupted();
                       });
+        journal_ = run_.checkpoints.journal(run_.directory);
+        driver.simulation().record_in(journal_);
         const Ending ending = run_to_the_end(driver, begin);
         bar.hide();
         if (duration == 0 && !case_.spheres) {
@@ -93,6 +92,7 @@ class LineRun {
         Simulation simulation(Scene(kernel_for(case_.surroundings, run_.method), discretization_,
                                     case_.spheres ? Law(sphere) : Law(Vesicle()), case_.drive, Solver(), AnyWall()),
                               run_.method.steps(params.step_tolerance), shapes, params);
+        simulation.record_in(journal_);
         frames_ = LineFrames();
         kept_ = 0;
         visit(simulation, run_.time.value_or(0));
@@ -164,10 +164,7 @@ class LineRun {
         summary["parameters"] = case_.parameters;
         write(simulation, result, summary);
         print_bodies(summary);
-        if (!ending.failure.empty()) {
-            throw axistokes::SimulationFailure(ending.failure);
-        }
-        return result.interrupted ? interrupted : success;
+        return finish(result.interrupted, ending.error, journal_.get());
     }
 
     void write(const Simulation& simulation, const Driver::Result& result,
@@ -204,6 +201,7 @@ class LineRun {
     AnyDiscretization discretization_;
     LineFrames frames_;
     axistokes::Index kept_ = 0;
+    std::shared_ptr<Journal> journal_;  // from the first step on
 };
 
 }  // namespace

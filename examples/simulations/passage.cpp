@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Follows a vesicle through a channel and writes what came of it.
-#include "../support/exit_code.hpp"
 #include "../support/passage_case.hpp"
 #include "../support/progress.hpp"
 #include "../support/results.hpp"
@@ -16,10 +15,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -138,9 +139,8 @@ class PassageRun {
     }
 
     int operator()() {
-        if (!options_.directory.empty()) {
-            axistokes::create_output_directory(options_.directory);
-        }
+        journal_ = options_.checkpoints.journal(options_.directory);
+        now().record_in(journal_);
         const auto begin = std::chrono::steady_clock::now();
         {
             const InterruptGuard guard;
@@ -151,6 +151,9 @@ class PassageRun {
                 advance();
             } catch (const axistokes::SimulationFailure& error) {
                 failure_ = error.what();
+            } catch (const axistokes::OutputError& error) {
+                failure_ = error.what();
+                unrecorded_ = std::current_exception();
             }
         }
         keep_last();
@@ -182,10 +185,12 @@ class PassageRun {
         params.step_tolerance = options_.step_tolerance.value_or(accuracy_.step);
         params.most_steps = options_.most_steps;
         params.referee = !options_.method.no_referee;
-        return Simulation(
+        Simulation simulation(
             Scene(OptionalTubeKernel(OptionalTubeImages()), discretization_, Law(Vesicle()),
                   Drive(axistokes::Quiescent<double>()), Solver(), AnyWall(AnyWall::Mesh(profile_, wall))),
             options_.method.steps(params.step_tolerance), shape, params);
+        simulation.record_in(journal_);
+        return simulation;
     }
 
     Simulation& now() { return driver_->simulation(); }
@@ -324,10 +329,11 @@ class PassageRun {
                 std::cout << "  " << std::left << std::setw(24) << key << value << '\n';
             }
         }
-        if (!failure_.empty()) {
-            throw axistokes::SimulationFailure(failure_);
+        std::exception_ptr error = unrecorded_;
+        if (!error && !failure_.empty()) {
+            error = std::make_exception_ptr(axistokes::SimulationFailure(failure_));
         }
-        return passed_ ? success : interrupted;
+        return finish(!passed_ && (failure_.empty() || unrecorded_), error, journal_.get());
     }
 
     PassageOptions options_;
@@ -335,7 +341,8 @@ class PassageRun {
     axistokes::Accuracy<double> accuracy_;
     AnyDiscretization discretization_;
     axistokes::Measures<double> measures_;
-    double start_ = 0;  // of the centroid
+    double start_ = 0;                  // of the centroid
+    std::shared_ptr<Journal> journal_;  // from the first step on
     std::optional<Driver> driver_;
     const InterruptGuard* guard_ = nullptr;
     ProgressBar* bar_ = nullptr;
@@ -349,6 +356,7 @@ class PassageRun {
     double unresolved_ = 0;  // largest share of the last modes
     double seconds_ = 0;
     std::string failure_;
+    std::exception_ptr unrecorded_;  // why a step could not be recorded
     bool passed_ = false;
 };
 

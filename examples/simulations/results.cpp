@@ -16,12 +16,21 @@ namespace examples {
 
 Ending run_to_the_end(Driver& driver, std::chrono::steady_clock::time_point begin) {
     Ending ending;
+    bool recorded = true;
+    const auto keep = [&](const std::exception& error) {
+        ending.failure = error.what();
+        ending.error = std::current_exception();
+    };
     try {
         driver.run();
     } catch (const axistokes::SimulationFailure& failure) {
-        ending.failure = failure.what();
+        keep(failure);
+    } catch (const axistokes::OutputError& error) {
+        keep(error);
+        recorded = false;
     }
     ending.result = driver.result();
+    ending.result.interrupted = ending.result.interrupted || !recorded;
     ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return ending;
 }
@@ -205,14 +214,24 @@ void write_results(const Simulation& simulation, const Ending& ending, const Run
 
 }  // namespace
 
+int finish(bool unfinished, const std::exception_ptr& error, Journal* journal) {
+    if (journal && unfinished) {
+        journal->flush();
+        std::cout << "to go on: --resume " << journal->path().parent_path().string() << '\n';
+    } else if (journal) {
+        journal->remove();
+    }
+    if (error) {
+        std::rethrow_exception(error);
+    }
+    return unfinished ? interrupted : success;
+}
+
 int conclude(const Simulation& simulation, const Ending& ending, const RunOptions& options, const Frames& frames,
-             const nlohmann::ordered_json& summary) {
+             const nlohmann::ordered_json& summary, Journal* journal) {
     write_results(simulation, ending, options, frames, summary);
     print(summary, options.directory);
-    if (!ending.failure.empty()) {
-        throw axistokes::SimulationFailure(ending.failure);
-    }
-    return ending.result.interrupted ? interrupted : success;
+    return finish(ending.result.interrupted, ending.error, journal);
 }
 
 }  // namespace examples

@@ -6,6 +6,7 @@
 #include "../support/vesicle_case.hpp"
 
 #include <chrono>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -35,9 +36,6 @@ class VesicleRun {
     }
 
     int operator()() {
-        if (!run_.directory.empty()) {
-            axistokes::create_output_directory(run_.directory);  // better now than after the run
-        }
         const auto begin = std::chrono::steady_clock::now();
         const InterruptGuard guard;
         ProgressBar bar;
@@ -47,9 +45,12 @@ class VesicleRun {
                           observe(s, approach, bar);
                           return !guard.interrupted();
                       });
+        journal_ = run_.checkpoints.journal(run_.directory);
+        driver.simulation().record_in(journal_);
         const Ending ending = run_to_the_end(driver, begin);
         bar.hide();
-        return conclude(driver.simulation(), ending, run_, frames_.frames(), summary(driver.simulation(), ending));
+        return conclude(driver.simulation(), ending, run_, frames_.frames(), summary(driver.simulation(), ending),
+                        journal_.get());
     }
 
   private:
@@ -74,6 +75,7 @@ class VesicleRun {
         Simulation simulation(Scene(kernel_for(case_.surroundings, run_.method), discretization_, Law(Vesicle()),
                                     case_.drive, Solver(), wall_for(case_.surroundings)),
                               run_.method.steps(params_.step_tolerance), shape, params_);
+        simulation.record_in(journal_);
         frames_ = FramesAt(run_.frame_times);
         frames_.visit(0, simulation);
         return simulation;
@@ -120,6 +122,7 @@ class VesicleRun {
     axistokes::SimulationParams<double> params_;
     AnyDiscretization discretization_;
     FramesAt frames_;
+    std::shared_ptr<Journal> journal_;  // from the first step on
 };
 
 }  // namespace

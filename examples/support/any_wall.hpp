@@ -52,6 +52,8 @@ class AnyWall {
     double gap(const axistokes::Point<double>& x) const;
     double velocity_scale() const;
     double centreline_velocity(double z) const;
+    Vector memory() const;
+    void recall(const Vector& memory);
     AnyWall reaching(double reach) const;
     AnyField field(const AnyDiscretization& discretization, const OptionalTubeKernel& kernel, const Shape& body,
                    const Vector& force);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
 
+#include "checkpoints.hpp"
 #include "exit_code.hpp"
 #include <axistokes/io/atomic_file.hpp>
 
@@ -10,9 +11,12 @@
 #include <charconv>
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <sstream>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace examples {
 
@@ -129,6 +133,51 @@ bool CommandLine::given(const std::string& name) const {
     return app_->count(name) > 0;
 }
 
+void CommandLine::resumable(std::string& directory, Checkpoints& checkpoints) {
+    directory_ = &directory;
+    checkpoints_ = &checkpoints;
+    app_->add_option("--resume",
+                     "go on with the run with --out DIR that was killed or interrupted; takes all other options "
+                     "from there")
+        ->type_name("DIR");
+    number("--checkpoint-every", checkpoints.every,
+           "steps after which DIR/run.journal of --out DIR, from which the run can be gone on with, is brought up to "
+           "date");
+}
+
+/// Replaces the options by those of the run with results in that directory.
+void CommandLine::take_up(std::string resumed) {
+    using axistokes::detail::require;
+    for (const CLI::Option* option : app_->get_options()) {
+        const std::string name = option->get_name();
+        require(option->count() == 0 || name == "--resume" || name == "--checkpoint-every", name.c_str(), "given",
+                "absent with --resume, which takes it from the run");
+    }
+    const std::filesystem::path path = std::filesystem::path(resumed) / Checkpoints::file;
+    if (!std::filesystem::exists(path)) {
+        const bool ended = std::filesystem::exists(path.parent_path() / "summary.json");
+        require(false, "--resume", resumed,
+                ended ? "the directory of a run that has not ended; this one has, with the results that are there"
+                      : "the directory of a run that was killed or interrupted; there is no run.journal");
+    }
+    std::istringstream words(Journal::resume(path)->text());
+    std::string program;
+    std::getline(words, program, '\0');
+    require(program == program_, "--resume", resumed, ("the directory of a run of " + program_).c_str());
+    std::vector<std::string> arguments;
+    for (std::string word; std::getline(words, word, '\0');) {
+        arguments.insert(arguments.begin(), word);  // the parser wants the last one first
+    }
+    const bool other_interval = given("--checkpoint-every");
+    const Index every = checkpoints_->every;
+    app_->parse(std::move(arguments));
+    if (other_interval) {
+        checkpoints_->every = every;
+    }
+    checkpoints_->resumed = true;
+    *directory_ = std::move(resumed);
+}
+
 int CommandLine::run(int argc, char** argv, const std::function<int()>& run) {
     const auto complain = [&](const std::exception& error, ExitCode code) {
         std::cerr << program_ << ": " << error.what() << '\n';
@@ -136,6 +185,16 @@ int CommandLine::run(int argc, char** argv, const std::function<int()>& run) {
     };
     try {
         app_->parse(argc, argv);
+        if (checkpoints_ && given("--resume")) {
+            take_up(app_->get_option("--resume")->as<std::string>());
+        } else if (checkpoints_) {
+            axistokes::detail::require(!given("--checkpoint-every") || !directory_->empty(), "--checkpoint-every",
+                                       checkpoints_->every, "absent without --out");
+            checkpoints_->command = program_ + '\0';
+            for (int i = 1; i < argc; ++i) {
+                checkpoints_->command += std::string(argv[i]) + '\0';
+            }
+        }
         return run();
     } catch (const CLI::ParseError& error) {
         return error.get_exit_code() == 0 ? app_->exit(error) : complain(error, bad_input);

@@ -19,6 +19,8 @@ class Option;
 
 namespace examples {
 
+struct Checkpoints;
+
 /// An option that a program has; empty text and absent numbers show no default.
 class Option {
   public:
@@ -61,12 +63,20 @@ class CommandLine {
 
     bool given(const std::string& name) const;
 
+    /// Adds --resume DIR, with which the program takes all other options from the journal of a run whose results go to
+    /// DIR, and --checkpoint-every. `directory` is the value of the option --out.
+    void resumable(std::string& directory, Checkpoints& checkpoints);
+
     /// The program's exit code; `run` returns one and is called once the options have their values.
     int run(int argc, char** argv, const std::function<int()>& run);
 
   private:
+    void take_up(std::string resumed);
+
     std::string program_;
     std::unique_ptr<CLI::App> app_;
+    std::string* directory_ = nullptr;  // of a resumable program, as is the next one
+    Checkpoints* checkpoints_ = nullptr;
 };
 
 }  // namespace examples

@@ -35,6 +35,7 @@ void RunOptions::add_to(CommandLine& app) {
     app.number("--tolerance", tolerance, "stationary when the residual is below this (default: 1e-5)");
     method.add_to(app);
     add_output_to(app);
+    app.resumable(directory, checkpoints);
     app.number("--dt", time_step, "fixed time step (default: automatic)");
     app.number("--step-tolerance", step_tolerance,
                "error allowed in a time step, in R0, by integrators that estimate it (default: 1e-4)");

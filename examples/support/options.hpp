@@ -2,6 +2,7 @@
 // Options that the simulations share.
 #pragma once
 
+#include "checkpoints.hpp"
 #include "method.hpp"
 #include <axistokes/accuracy.hpp>
 #include <axistokes/accuracy/driver_params.hpp>
@@ -27,6 +28,7 @@ struct RunOptions {
     std::optional<double> time;
     std::optional<axistokes::Index> steps;
     std::string directory;
+    Checkpoints checkpoints;
     bool vtk = false;
     bool flow_field = false;
     std::vector<double> frame_times;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "channel.hpp"
+#include "checkpoints.hpp"
 #include "method.hpp"
 
 #include <nlohmann/json.hpp>
@@ -28,6 +29,7 @@ struct PassageOptions {
     axistokes::Index most_steps = 5000;
     axistokes::Index frames = 9;
     std::string directory;
+    Checkpoints checkpoints;
 
     PassageOptions() { method.preset = "fast"; }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A progress bar on a terminal, and a clean stop on Ctrl-C.
+// A progress bar on a terminal, and a clean stop on Ctrl-C and its like.
 #pragma once
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -69,28 +70,42 @@ class Approach {
     double largest_ = 0;
 };
 
-/// While it lives, Ctrl-C only sets a flag; a second Ctrl-C ends the program as usual.
+/// While it lives, Ctrl-C (SIGINT), SIGTERM and SIGHUP only set a flag; a second one ends the program as usual. What
+/// the program was started to ignore (nohup) it ignores.
 class InterruptGuard {
   public:
     InterruptGuard() {
         flag() = 0;
-        previous_ = std::signal(SIGINT, [](int) {
-            flag() = 1;
-            std::signal(SIGINT, SIG_DFL);
-        });
+        for (std::size_t i = 0; i < signals.size(); ++i) {
+            previous_[i] = std::signal(signals[i], [](int) {
+                flag() = 1;
+                for (const int signal : signals) {
+                    std::signal(signal, SIG_DFL);
+                }
+            });
+            if (previous_[i] == SIG_IGN) {
+                std::signal(signals[i], SIG_IGN);
+            }
+        }
     }
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
-    ~InterruptGuard() { std::signal(SIGINT, previous_); }
+    ~InterruptGuard() {
+        for (std::size_t i = 0; i < signals.size(); ++i) {
+            std::signal(signals[i], previous_[i]);
+        }
+    }
 
     bool interrupted() const { return flag() != 0; }
 
   private:
+    static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+
     static volatile std::sig_atomic_t& flag() {
         static volatile std::sig_atomic_t value = 0;
         return value;
     }
-    void (*previous_)(int);
+    std::array<void (*)(int), signals.size()> previous_{};
 };
 
 }  // namespace examples

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,13 @@ namespace examples {
 
 struct Ending {
     Driver::Result result;
-    std::string failure;  // the cause, or empty
+    std::string failure;       // the cause, or empty
+    std::exception_ptr error;  // likewise
     double wall_seconds = 0;
 };
 
-/// Runs; a failure of the simulation is part of the ending. `begin`: when what it took began.
+/// Runs; a failure of the simulation is part of the ending, and so is a step that cannot be recorded, which interrupts
+/// the run. `begin`: when what it took began.
 Ending run_to_the_end(Driver& driver, std::chrono::steady_clock::time_point begin);
 
 /// The last shape as a table. Without an instant (null: the shape may be the cause of a failure) at least the nodes.
@@ -45,9 +48,13 @@ nlohmann::ordered_json tube_summary(const Simulation& simulation, const Ending& 
 /// A summary as aligned lines: first how the run ended, then the numbers.
 void print(const nlohmann::ordered_json& summary, const std::string& directory);
 
-/// Writes and prints; the exit code. Throws SimulationFailure if the run ended with one.
-/// summary.json, shape.csv, history.csv and what else was asked for are written; nothing without a directory.
+/// Once the results are written: deletes the journal, if there is one, unless the run can be gone on with. The exit
+/// code; throws the error that ended the run.
+int finish(bool unfinished, const std::exception_ptr& error, Journal* journal);
+
+/// Writes, prints and finishes: summary.json, shape.csv, history.csv and what else was asked for; nothing without a
+/// directory.
 int conclude(const Simulation& simulation, const Ending& ending, const RunOptions& options, const Frames& frames,
-             const nlohmann::ordered_json& summary);
+             const nlohmann::ordered_json& summary, Journal* journal);
 
 }  // namespace examples

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace axistokes {
 
@@ -85,6 +86,11 @@ S pi_value() {
         return value;
     }
 }
+
+/// Numbers that Eigen maps. The order in which it adds them up depends on where packets begin, and results must not
+/// depend on where in memory they lie.
+template <class S>
+using AlignedNumbers = std::vector<S, Eigen::aligned_allocator<S>>;
 
 template <class T>
 std::string text(const T& value) {

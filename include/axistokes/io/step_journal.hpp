@@ -181,6 +181,7 @@ class StepJournal : public StepRecorder<S> {
         }
     }
 
+    const std::filesystem::path& path() const { return path_; }
     const std::string& text() const { return text_; }
 
     /// Throws InvalidArgument if there is something else in its place.

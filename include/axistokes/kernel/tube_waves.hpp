@@ -203,7 +203,7 @@ class TubeWaves {
 
     const TubeSpectrum<S>& spectrum_;
     std::array<std::vector<S>, coefficients> coefficient_;
-    std::vector<S> cosine_, sine_;
+    AlignedNumbers<S> cosine_, sine_;
     std::array<S, most_panel_nodes> offset_cosine_{}, offset_sine_{};
 };
 

@@ -24,7 +24,7 @@ struct LayerPoints {
     std::vector<S> z;
     std::vector<S> normal_r;  // the normal, outward, only if asked for
     std::vector<S> normal_z;
-    std::vector<S> shares;  // of the nodal densities in that at a point, as many a point as the basis says
+    AlignedNumbers<S> shares;  // of the nodal densities in that at a point, as many a point as the basis says
 
     Index size() const { return static_cast<Index>(t.size()); }
 
