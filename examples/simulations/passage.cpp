@@ -264,6 +264,9 @@ class PassageRun {
         return cause.str();
     }
 
+    /// Whether it was stopped on the way.
+    bool unfinished() const { return !passed_ && (failure_.empty() || unrecorded_); }
+
     nlohmann::ordered_json summary() {
         nlohmann::ordered_json summary;
         summary["passed"] = passed_;
@@ -302,6 +305,9 @@ class PassageRun {
         if (!failure_.empty()) {
             summary["failure"] = failure_;
         }
+        if (unfinished()) {
+            summary["interrupted"] = true;
+        }
         summary["parameters"] = options_.parameters();
         return summary;
     }
@@ -333,7 +339,7 @@ class PassageRun {
         if (!error && !failure_.empty()) {
             error = std::make_exception_ptr(axistokes::SimulationFailure(failure_));
         }
-        return finish(!passed_ && (failure_.empty() || unrecorded_), error, journal_.get());
+        return finish(unfinished(), error, journal_.get());
     }
 
     PassageOptions options_;
