@@ -2,9 +2,7 @@
 // Spheres and spheroids: areas against quadrature, excess areas there and back, nodes on the ellipse, bad input.
 #include "catch.hpp"
 #include "support.hpp"
-#include <axistokes/discretization/linear_elements.hpp>
 #include <axistokes/geometry/shapes.hpp>
-#include <axistokes/geometry/tube_shapes.hpp>
 
 #include <boost/math/quadrature/tanh_sinh.hpp>
 
@@ -15,16 +13,12 @@
 namespace {
 
 using axistokes::Index;
-using axistokes::InvalidArgument;
-using axistokes::LinearElements;
 using axistokes::Meridian;
 using axistokes::MeridianSpline;
 using axistokes::NodeSpacing;
-using axistokes::shape_in_tube;
 using axistokes::SpheroidKind;
 using axistokes::test::mentions;
 using axistokes::test::observed_order;
-using axistokes::test::pi;
 using axistokes::test::refusal;
 using axistokes::test::Spheroid;
 
@@ -152,24 +146,4 @@ TEST_CASE("shapes refuse bad input by name, value and range", "[shapes]") {
     }
     CHECK(mentions(refusal([] { axistokes::spheroid_of_excess_area(0.5, SpheroidKind::oblate, 7); }),
                    "number of elements", "7", "at least 8"));
-}
-
-TEST_CASE("a shape for a tube has the excess area asked for, or there is none", "[shapes]") {
-    // Blunt shapes of small excess area do not exist: none of a larger one takes their place.
-    for (const double excess_area : {1e-6, 1e-3, 0.05, 0.170395, 0.3, 1.0, 4.8, 20.0}) {
-        int found = 0;
-        for (double radius = 3; radius > 0.3; radius /= 1.02) {
-            try {
-                const auto m = shape_in_tube<double>(excess_area, radius, SpheroidKind::prolate, 200);
-                const auto measures = LinearElements<double>().measures(m);
-                INFO("excess area " << excess_area << " in a tube of radius " << radius);
-                CHECK(m.r.maxCoeff() < radius);
-                CHECK(measures.area == Approx(4 * pi + excess_area).epsilon(1e-5));
-                CHECK(measures.volume == Approx(4 * pi / 3).epsilon(1e-5));
-                ++found;
-            } catch (const InvalidArgument&) {
-            }
-        }
-        CHECK(found > 50);
-    }
 }

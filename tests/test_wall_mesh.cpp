@@ -439,6 +439,25 @@ TEST_CASE("Geometric limits of a vesicle's passage") {
                   "no narrower hole lets through");
     check_refused([&] { require_passage(StraightTube<double>(tube * 0.99), 4 * kPi + 1, 4 * kPi / 3); },
                   "no narrower tube holds");
+
+    // Whatever fits into a tube of the throat's radius passes, however short or smooth the throat.
+    CHECK_NOTHROW(require_passage(Constriction<double>(1.2, 2.0, 2.0), 4 * kPi, 4 * kPi / 3));
+    for (const double excess_area : {0.1, 0.5, 1.0, 2.0}) {
+        const double narrowest = critical_tube_radius(4 * kPi + excess_area, 4 * kPi / 3);
+        for (const double throat : {1.0001 * narrowest, 0.5 + narrowest / 2, 1.05, 1.1}) {
+            for (const double half_length : {0.1, 2.0, 20.0}) {
+                CHECK_NOTHROW(require_passage(Constriction<double>(throat, 1.5, half_length), 4 * kPi + excess_area,
+                                              4 * kPi / 3));
+            }
+        }
+        check_refused(
+            [&] {
+                require_passage(Pore<double>(0.999 * narrowest, 1.5, 20.0, 1.0), 4 * kPi + excess_area, 4 * kPi / 3);
+            },
+            "throat radius = ");
+    }
+    // Two spheres on a thread pass any throat.
+    CHECK_NOTHROW(require_passage(Pore<double>(0.1, 1.5, 20.0, 1.0), 4 * kPi + 4, 4 * kPi / 3));
 }
 
 TEST_CASE("Area needed halfway through a channel") {
@@ -462,6 +481,10 @@ TEST_CASE("Area needed halfway through a channel") {
     // Never more than two spheres.
     CHECK(*halfway_area(Pore<double>(0.45, 1.5, 20.0, 1.0), volume) == Approx(std::cbrt(2.0) * 4 * kPi));
     CHECK_FALSE(halfway_area(StraightTube<double>(0.7), volume).has_value());
+    // A sphere that the throat does not touch.
+    for (const double throat : {1.0, 1.2}) {
+        CHECK(*halfway_area(Constriction<double>(throat, 1.5, 2.0), volume) == Approx(4 * kPi).epsilon(1e-14));
+    }
 
     // A throat wider than the critical hole, and shorter than the vesicle.
     check_refused([&] { require_passage(Constriction<double>(0.5, 1.5, 2.0), 4 * kPi + 2, volume); },

@@ -4,7 +4,7 @@
 #include "../support/progress.hpp"
 #include "../support/results.hpp"
 #include <axistokes/geometry/necks.hpp>
-#include <axistokes/geometry/shapes.hpp>
+#include <axistokes/geometry/tube_shapes.hpp>
 #include <axistokes/io/csv.hpp>
 #include <axistokes/wall/passage.hpp>
 
@@ -166,12 +166,12 @@ class PassageRun {
     Index first_elements() const { return options_.elements.value_or(spectral() ? 48 : 80); }
 
     Meridian<double> initial_shape(Index elements) const {
-        const auto spheroid = [&](Index count) {
-            return axistokes::spheroid_of_excess_area<double>(options_.excess_area, axistokes::SpheroidKind::prolate,
-                                                              count);
+        const auto shape = [&](Index count) {
+            return axistokes::shape_in_tube<double>(options_.excess_area, options_.wide,
+                                                    axistokes::SpheroidKind::prolate, count);
         };
-        return options_.elements ? axistokes::nodes_of(discretization_, spheroid, elements)
-                                 : axistokes::resolved_nodes(discretization_, spheroid, elements, accuracy_.unresolved);
+        return options_.elements ? axistokes::nodes_of(discretization_, shape, elements)
+                                 : axistokes::resolved_nodes(discretization_, shape, elements, accuracy_.unresolved);
     }
 
     Simulation simulation(Index elements) const {

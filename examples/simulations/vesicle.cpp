@@ -67,10 +67,17 @@ class VesicleRun {
         if (spectral && case_.excess_area > 0 && discretization_.restore(exact, area, 4 * std::numbers::pi / 3)) {
             shape = std::move(exact);
         }
+        const std::string few = ": " + std::to_string(shape.elements()) + " elements cannot carry it";
         const double off = discretization_.measures(shape).area / area - 1;
         if (std::abs(off) > 0.05) {
             throw axistokes::SimulationFailure("the initial shape's area is off by " + axistokes::detail::text(off) +
-                                               ": " + std::to_string(shape.elements()) + " elements cannot carry it");
+                                               few);
+        }
+        const auto& tube = case_.surroundings.tube_radius;
+        if (const double widest = discretization_.max_radius(shape); tube && !(widest < *tube)) {
+            throw axistokes::SimulationFailure("the initial shape's largest radius is " +
+                                               axistokes::detail::text(widest) + ", the tube's " +
+                                               axistokes::detail::text(*tube) + few);
         }
         Simulation simulation(Scene(kernel_for(case_.surroundings, run_.method), discretization_, Law(Vesicle()),
                                     case_.drive, Solver(), wall_for(case_.surroundings)),

@@ -77,22 +77,15 @@ Meridian<S> spaced_on_curve(const std::function<Meridian<S>(const Vector<S>&)>& 
     return at_angles(wanted);
 }
 
-/// z = -c cos t, r = a sqrt(1 - cos^(2q) t), written as sin t times an analytic factor: an ellipse for q = 1, ever
-/// closer to a cylinder with rounded ends as q grows.
+/// r = a sin t, z = -c cos t.
 template <class S>
-Meridian<S> superspheroid_points(const S& a, const S& c, int q, const Vector<S>& angle) {
+Meridian<S> spheroid_points(const S& a, const S& c, const Vector<S>& angle) {
     using std::cos;
     using std::sin;
-    using std::sqrt;
     Meridian<S> m{Vector<S>(angle.size()), Vector<S>(angle.size())};
     for (Index i = 0; i < angle.size(); ++i) {
-        const S cosine = cos(angle[i]);
-        S sum = 1;
-        for (int k = 1; k < q; ++k) {
-            sum = S(1) + sum * cosine * cosine;
-        }
-        m.r[i] = a * sin(angle[i]) * sqrt(sum);
-        m.z[i] = -c * cosine;
+        m.r[i] = a * sin(angle[i]);
+        m.z[i] = -c * cos(angle[i]);
     }
     m.r[0] = m.r[angle.size() - 1] = 0;
     return m;
@@ -107,8 +100,8 @@ Meridian<S> spheroid(const S& a, const S& c, Index elements, const NodeSpacing<S
     using std::isfinite;
     detail::require(a > S(0) && isfinite(a), "equatorial semi-axis", a, "> 0 and finite");
     detail::require(c > S(0) && isfinite(c), "polar semi-axis", c, "> 0 and finite");
-    return detail::spaced_on_curve<S>(
-        [&](const Vector<S>& angle) { return detail::superspheroid_points<S>(a, c, 1, angle); }, elements, spacing);
+    return detail::spaced_on_curve<S>([&](const Vector<S>& angle) { return detail::spheroid_points<S>(a, c, angle); },
+                                      elements, spacing);
 }
 
 /// Sphere of the given radius (in R0).

@@ -2,6 +2,7 @@
 // Can a vesicle of given area and volume get through a channel at all? Neither can change, which bounds the throat.
 #pragma once
 
+#include "../geometry/tube_shapes.hpp"
 #include "profile.hpp"
 
 #include <algorithm>
@@ -11,47 +12,6 @@
 #include <sstream>
 
 namespace axistokes {
-
-namespace detail {
-
-/// Root in (low, high) of an increasing function.
-template <class S, class Function>
-S increasing_root(S low, S high, const Function& function) {
-    for (int k = 0; k < std::numeric_limits<S>::digits + 4; ++k) {
-        const S middle = (low + high) / 2;
-        (function(middle) < S(0) ? low : high) = middle;
-    }
-    return high;
-}
-
-template <class S>
-void require_vesicle(const S& area, const S& volume) {
-    using std::cbrt;
-    require_positive("vesicle volume", volume);
-    const S radius = cbrt(3 * volume / (4 * pi_value<S>()));
-    const S least = 4 * pi_value<S>() * radius * radius;
-    require(area >= least * (S(1) - S(1e-6)), "vesicle area", area, "at least that of the sphere of equal volume");
-}
-
-}  // namespace detail
-
-/// Radius of the narrowest long tube that holds a vesicle of the given area and volume. It fills the tube as a cylinder
-/// with hemispherical ends, the shape of least area between parallel walls: of radius R and area A, that has the
-/// volume A R/2 - 2 pi R^3/3. Throws InvalidArgument if no surface of that area holds the volume.
-template <class S>
-S critical_tube_radius(const S& area, const S& volume) {
-    using std::sqrt;
-    detail::require_vesicle(area, volume);
-    const S pi = detail::pi_value<S>();
-    return detail::increasing_root<S>(S(0), sqrt(area / (4 * pi)),
-                                      [&](const S& r) { return S(area * r / 2 - 2 * pi * r * r * r / 3 - volume); });
-}
-
-/// Length of that cylinder with its ends: A = 2 pi R length.
-template <class S>
-S critical_tube_length(const S& area, const S& radius) {
-    return area / (2 * detail::pi_value<S>() * radius);
-}
 
 /// Radius of the smallest hole in a thin plate that lets a vesicle through: halfway it consists of two equal spherical
 /// caps that meet in the hole, whose area together must not exceed the vesicle's. 0 if any hole does.
@@ -80,18 +40,24 @@ S critical_orifice_radius(const S& area, const S& volume) {
 namespace detail {
 
 /// Least area of a surface that starts at the channel's section z, goes in the given direction (1 or -1), stays within
-/// the wall and holds the given volume with that section. It follows the wall up to some z1 and closes with the sphere
-/// that touches the wall there. Nothing if that is not the answer: the wall must pull nowhere, that is, on the part
-/// followed, widen with growing slope and have no larger mean curvature than the sphere.
+/// the wall and holds the given volume with that section: half a sphere if the section is wide enough for it. Else it
+/// follows the wall up to some z1 and closes with the sphere that touches the wall there. Nothing if that is not the
+/// answer: the wall must pull nowhere, that is, on the part followed, widen with growing slope and have no larger mean
+/// curvature than the sphere.
 template <ChannelProfile Profile>
 std::optional<typename Profile::Scalar> least_area_beyond(const Profile& profile, const typename Profile::Scalar& z,
                                                           int direction, const typename Profile::Scalar& volume) {
     using S = typename Profile::Scalar;
+    using std::cbrt;
     using std::sqrt;
     constexpr int samples = 4000;
     const S pi = pi_value<S>();
     const S step = ((direction > 0 ? profile.end() : profile.begin()) - z) / S(samples);
     const S throat = profile.radius(z);
+    const S sphere_radius = cbrt(3 * volume / (2 * pi));
+    if (sphere_radius <= throat) {
+        return 2 * pi * sphere_radius * sphere_radius;
+    }
     S wall_area = 0;
     S wall_volume = 0;
     S area_before = 0;
@@ -147,9 +113,11 @@ std::optional<typename Profile::Scalar> halfway_area(const Profile& profile, con
     return std::min<S>(*above + *below, 8 * detail::pi_value<S>() * sphere * sphere);
 }
 
-/// Throws InvalidArgument if a vesicle of the given area and volume cannot pass the channel, whatever the pressure: its
-/// throat is narrower than the critical orifice, or narrower than the critical tube over the length of the vesicle in
-/// it, or the vesicle cannot get halfway through. What passes may still need more pressure than the flow has.
+/// Throws InvalidArgument if a vesicle of the given area and volume cannot pass the channel, whatever the pressure. One
+/// that fits into a tube of the throat's radius passes, and so does one with the area of two spheres that share its
+/// volume. Any other does not if its throat is narrower than the critical orifice, or narrower than the critical tube
+/// over the length of the vesicle in it, or if the vesicle cannot get halfway through. What passes may still need more
+/// pressure than the flow has.
 template <ChannelProfile Profile>
 void require_passage(const Profile& profile, const typename Profile::Scalar& area,
                      const typename Profile::Scalar& volume) {
@@ -157,6 +125,9 @@ void require_passage(const Profile& profile, const typename Profile::Scalar& are
     const S throat = narrowest_radius(profile);
     const S tube = critical_tube_radius(area, volume);
     const S orifice = critical_orifice_radius(area, volume);
+    if (throat > tube || (orifice == S(0) && !profile.uniform)) {
+        return;
+    }
     const auto refuse = [&](const S& limit, const char* why) {
         std::ostringstream accepted;
         accepted << "larger than " << limit << ": " << why << " a vesicle of area " << area << " and volume " << volume;

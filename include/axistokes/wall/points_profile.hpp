@@ -8,6 +8,7 @@
 // clang-format off
 #include <math.h>  // NOLINT(modernize-deprecated-headers)
 #include <boost/math/interpolators/pchip.hpp>
+#include <boost/math/special_functions/fpclassify.hpp>  // which pchip.hpp of Boost 1.74 uses and does not include
 // clang-format on
 
 #include <vector>
