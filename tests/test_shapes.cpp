@@ -132,6 +132,9 @@ TEST_CASE("shapes refuse bad input by name, value and range", "[shapes]") {
     CHECK(mentions(refusal([] { sphere<double>(32, not_a_number); }), "sphere radius", "nan", "> 0"));
     CHECK(mentions(refusal([] { spheroid(-0.5, 1.0, 32); }), "equatorial semi-axis", "-0.5", "> 0 and finite"));
     CHECK(mentions(refusal([] { spheroid(1.0, infinity, 32); }), "polar semi-axis", "inf", "> 0 and finite"));
+    CHECK(mentions(refusal([] { spheroid(1.0, 1e-200, 32); }), "polar semi-axis", "e-201",
+                   "from 2.93874e-39 to 3.40282e+38"));
+    CHECK(mentions(refusal([] { sphere<double>(32, 1e200); }), "equatorial semi-axis", "e+199", "from 2.93874e-39"));
     CHECK(mentions(refusal([] { spheroid(1.0, 1.0, 2); }), "number of elements", "2", "at least 8"));
     CHECK(mentions(refusal([] { axistokes::spheroid_area(0.0, 1.0); }), "equatorial semi-axis", "0", "> 0"));
     CHECK(mentions(refusal([] { axistokes::spheroid_area(1.0, not_a_number); }), "polar semi-axis", "nan", "> 0"));

@@ -417,6 +417,7 @@ TEST_CASE("the tube kernel refuses bad input", "[tube]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(mentions(refusal([] { TubeKernel<double>(0.0); }), "tube radius", "0", "> 0"));
     CHECK(mentions(refusal([&] { TubeKernel<double> k(nan); }), "tube radius", "nan", "> 0"));
+    CHECK(mentions(refusal([] { TubeKernel<double>(1e-300); }), "tube radius", "1e-300", "from 2.93874e-39 to"));
     CHECK(mentions(refusal([] { tube(1.0, 0.5); }), "tolerance", "0.5", "0.1"));
     CHECK(mentions(refusal([] { tube(1.0, 1e-17); }), "tolerance", "1e-17", "8 eps"));
     const TubeKernel<double> kernel(1.0);

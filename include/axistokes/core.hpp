@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
@@ -109,6 +110,24 @@ void require(bool ok, const char* argument, const T& value, const char* accepted
     message.precision(17);
     message << argument << " = " << value << ": must be " << accepted;
     throw InvalidArgument(message.str());
+}
+
+/// Throws InvalidArgument unless a length is positive and finite, as are products of eight of its size or its
+/// inverse's.
+template <class S>
+void require_length(const char* argument, const S& value) {
+    using std::isfinite;
+    using std::sqrt;
+    require(value > S(0) && isfinite(value), argument, value, "> 0 and finite");
+    const S largest = sqrt(sqrt(sqrt(std::numeric_limits<S>::max())));
+    const bool representable = value <= largest && value >= S(1) / largest;
+    require(representable, argument, value, ("from " + text(S(1) / largest) + " to " + text(largest)).c_str());
+}
+
+/// Throws InvalidArgument unless the value is a relative error that the type can tell.
+template <class S>
+void require_tolerance(const char* argument, const S& value) {
+    require(value >= std::numeric_limits<S>::epsilon() && value <= S(0.1), argument, value, "in [eps, 0.1]");
 }
 
 }  // namespace detail

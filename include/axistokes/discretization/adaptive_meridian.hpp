@@ -22,7 +22,7 @@ class AdaptiveMeridian : public AdaptiveGeometry<S>, public detail::LayerOperato
     using Surface = AdaptiveSurface<S>;
 
     struct Params {
-        /// Relative error allowed in the integrals, in (0, 0.1]; that of the polynomials depends on the nodes.
+        /// Relative error allowed in the integrals, in [eps, 0.1]; that of the polynomials depends on the nodes.
         S tolerance = default_tolerance();
         AdaptiveMeshingParams<S> meshing;
 
@@ -33,7 +33,7 @@ class AdaptiveMeridian : public AdaptiveGeometry<S>, public detail::LayerOperato
         }
     };
 
-    /// Throws InvalidArgument when the tolerance is not in (0, 0.1] or a meshing parameter is out of range.
+    /// Throws InvalidArgument when the tolerance is not in [eps, 0.1] or a meshing parameter is out of range.
     explicit AdaptiveMeridian(Params params = {})
         : AdaptiveGeometry<S>(params.meshing),
           params_(checked(std::move(params))),
@@ -60,8 +60,7 @@ class AdaptiveMeridian : public AdaptiveGeometry<S>, public detail::LayerOperato
 
   private:
     static Params checked(Params params) {
-        detail::require(params.tolerance > S(0) && params.tolerance <= S(0.1), "quadrature tolerance", params.tolerance,
-                        "in (0, 0.1]");
+        detail::require_tolerance("quadrature tolerance", params.tolerance);
         return params;
     }
 

@@ -22,7 +22,7 @@ class LinearElements : public SplineGeometry<S>, public detail::LayerOperators<L
     using Surface = LinearSurface<S>;
 
     struct Params {
-        /// Relative error allowed in each element's integrals, in (0, 0.1]. The elements themselves err by O(h^2).
+        /// Relative error allowed in each element's integrals, in [eps, 0.1]. The elements themselves err by O(h^2).
         S tolerance = default_tolerance();
         MeshingParams<S> meshing;
 
@@ -34,7 +34,7 @@ class LinearElements : public SplineGeometry<S>, public detail::LayerOperators<L
         }
     };
 
-    /// Throws InvalidArgument when the tolerance is not in (0, 0.1] or a meshing parameter is out of range.
+    /// Throws InvalidArgument when the tolerance is not in [eps, 0.1] or a meshing parameter is out of range.
     explicit LinearElements(Params params = {})
         : SplineGeometry<S>(params.meshing), params_(checked(params)), rules_(params.tolerance) {}
 
@@ -56,8 +56,7 @@ class LinearElements : public SplineGeometry<S>, public detail::LayerOperators<L
 
   private:
     static Params checked(Params params) {
-        detail::require(params.tolerance > S(0) && params.tolerance <= S(0.1), "quadrature tolerance", params.tolerance,
-                        "in (0, 0.1]");
+        detail::require_tolerance("quadrature tolerance", params.tolerance);
         return params;
     }
 

@@ -23,7 +23,7 @@ class SpectralMeridian : public SpectralGeometry<S>, public detail::LayerOperato
     using Surface = SpectralSurface<S>;
 
     struct Params {
-        /// Relative error allowed in the integrals, in (0, 0.1]; that of the series themselves depends on the degree.
+        /// Relative error allowed in the integrals, in [eps, 0.1]; that of the series themselves depends on the degree.
         S tolerance = default_tolerance();
         SpectralMeshingParams<S> meshing;
 
@@ -34,7 +34,7 @@ class SpectralMeridian : public SpectralGeometry<S>, public detail::LayerOperato
         }
     };
 
-    /// Throws InvalidArgument when the tolerance is not in (0, 0.1] or a meshing parameter is out of range.
+    /// Throws InvalidArgument when the tolerance is not in [eps, 0.1] or a meshing parameter is out of range.
     explicit SpectralMeridian(Params params = {})
         : SpectralGeometry<S>(params.meshing),
           params_(checked(std::move(params))),
@@ -59,8 +59,7 @@ class SpectralMeridian : public SpectralGeometry<S>, public detail::LayerOperato
 
   private:
     static Params checked(Params params) {
-        detail::require(params.tolerance > S(0) && params.tolerance <= S(0.1), "quadrature tolerance", params.tolerance,
-                        "in (0, 0.1]");
+        detail::require_tolerance("quadrature tolerance", params.tolerance);
         return params;
     }
 

@@ -21,7 +21,7 @@ class Poiseuille {
     Poiseuille(S capillary_number, S tube_radius) : capillary_number_(capillary_number), tube_radius_(tube_radius) {
         using std::isfinite;
         detail::require(isfinite(capillary_number), "capillary number", capillary_number, "finite");
-        detail::require(tube_radius > S(0) && isfinite(tube_radius), "tube radius", tube_radius, "> 0 and finite");
+        detail::require_length("tube radius", tube_radius);
     }
     /// In the tube of a kernel, or of a wall that is one.
     template <HasGap<S> Tube>

@@ -97,9 +97,8 @@ Meridian<S> spheroid_points(const S& a, const S& c, const Vector<S>& angle) {
 /// Throws InvalidArgument for fewer than 8 elements or a semi-axis that is not positive and finite.
 template <class S>
 Meridian<S> spheroid(const S& a, const S& c, Index elements, const NodeSpacing<S>& spacing = {}) {
-    using std::isfinite;
-    detail::require(a > S(0) && isfinite(a), "equatorial semi-axis", a, "> 0 and finite");
-    detail::require(c > S(0) && isfinite(c), "polar semi-axis", c, "> 0 and finite");
+    detail::require_length("equatorial semi-axis", a);
+    detail::require_length("polar semi-axis", c);
     return detail::spaced_on_curve<S>([&](const Vector<S>& angle) { return detail::spheroid_points<S>(a, c, angle); },
                                       elements, spacing);
 }

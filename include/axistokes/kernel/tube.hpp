@@ -43,8 +43,7 @@ class TubeWall {
 
     /// Throws InvalidArgument unless the radius (in R0) is positive and finite and the tolerance in range.
     TubeWall(S radius, Params params) : radius_(radius), params_(params) {
-        using std::isfinite;
-        require(radius > S(0) && isfinite(radius), "tube radius", radius, "> 0 and finite");
+        require_length("tube radius", radius);
         const S least = 8 * std::numeric_limits<S>::epsilon();
         require(params.tolerance >= least && params.tolerance <= S(0.1), "tube kernel tolerance", params.tolerance,
                 "in [8 eps, 0.1]");

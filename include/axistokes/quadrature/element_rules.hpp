@@ -24,7 +24,7 @@ class ElementRules {
   public:
     static constexpr Index smallest_order = 2;
 
-    /// Rules for a relative error in (0, 0.1], up to `at_least` nodes if the tolerance does not ask for more.
+    /// Rules for a relative error in [eps, 0.1], up to `at_least` nodes if the tolerance does not ask for more.
     explicit ElementRules(const S& tolerance, Index at_least = 4)
         : rules_(detail::computed_once<GaussLegendreTable<S>>(std::max(at_least, largest_order(tolerance)))) {
         using std::cosh;

@@ -10,7 +10,7 @@ namespace axistokes {
 template <class S>
 class PanelCurve {
   public:
-    /// Throws InvalidArgument unless there are at least 2 nodes a panel and the tolerance is in (0, 0.1].
+    /// Throws InvalidArgument unless there are at least 2 nodes a panel and the tolerance is in [eps, 0.1].
     PanelCurve(Index nodes_per_panel, const S& tolerance)
         : p_(checked(nodes_per_panel, tolerance)), basis_(nodes_per_panel, tolerance) {}
 
@@ -82,7 +82,7 @@ class PanelCurve {
   private:
     static Index checked(Index nodes_per_panel, const S& tolerance) {
         detail::require(nodes_per_panel >= 2, "nodes per panel", nodes_per_panel, "at least 2");
-        detail::require(tolerance > S(0) && tolerance <= S(0.1), "panel tolerance", tolerance, "in (0, 0.1]");
+        detail::require_tolerance("panel tolerance", tolerance);
         return nodes_per_panel;
     }
 

@@ -41,7 +41,7 @@ class PointsProfile {
             const std::string point = " of profile point " + std::to_string(i);
             detail::require(isfinite(z[i]) && (i == 0 || z[i] > z[i - 1]), ("z" + point).c_str(), z[i],
                             "finite and increasing");
-            detail::require_positive(("r" + point).c_str(), r[i]);
+            detail::require_length(("r" + point).c_str(), r[i]);
         }
         return z.front();
     }

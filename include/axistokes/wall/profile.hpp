@@ -24,16 +24,6 @@ concept ChannelProfile = requires(const P& profile, typename P::Scalar z) {
     { profile.end() } -> std::convertible_to<typename P::Scalar>;
 };
 
-namespace detail {
-
-template <class S>
-void require_positive(const char* argument, const S& value) {
-    using std::isfinite;
-    require(value > S(0) && isfinite(value), argument, value, "> 0 and finite");
-}
-
-}  // namespace detail
-
 /// Where the profile is narrowest, of many samples; the middle one of equal ones. Throws InvalidArgument where the
 /// radius is not positive and finite.
 template <ChannelProfile Profile>
@@ -47,7 +37,7 @@ typename Profile::Scalar narrowest_section(const Profile& profile) {
         const S x = S(i) / S(samples);
         const S z = profile.begin() * (S(1) - x) + profile.end() * x;
         const S radius = profile.radius(z);
-        detail::require_positive(("profile radius at z = " + std::to_string(static_cast<double>(z))).c_str(), radius);
+        detail::require_length(("profile radius at z = " + std::to_string(static_cast<double>(z))).c_str(), radius);
         if (radius < narrowest) {
             narrowest = radius;
             first = z;
@@ -73,7 +63,7 @@ class StraightTube {
     static constexpr bool uniform = true;
 
     /// Throws InvalidArgument unless the radius is positive and finite.
-    explicit StraightTube(S radius) : radius_(radius) { detail::require_positive("tube radius", radius); }
+    explicit StraightTube(S radius) : radius_(radius) { detail::require_length("tube radius", radius); }
 
     S radius(const S&) const { return radius_; }
     S slope(const S&) const { return S(0); }
@@ -97,11 +87,11 @@ class Pore {
     Pore(S throat, S wide, S length, S transition)
         : throat_(throat), wide_(wide), length_(length), transition_(transition) {
         using std::isfinite;
-        detail::require_positive("throat radius", throat);
-        detail::require(wide >= throat && isfinite(wide), "radius of the wide ends", wide,
-                        "finite and at least the throat's");
+        detail::require_length("throat radius", throat);
+        detail::require(wide >= throat, "radius of the wide ends", wide, "finite and at least the throat's");
+        detail::require_length("radius of the wide ends", wide);
         detail::require(length >= S(0) && isfinite(length), "length of the throat", length, ">= 0 and finite");
-        detail::require_positive("length of the transition", transition);
+        detail::require_length("length of the transition", transition);
     }
 
     S radius(const S& z) const {
@@ -134,11 +124,10 @@ class Constriction {
 
     /// Throws InvalidArgument unless 0 < throat <= wide and half_length > 0, all finite.
     Constriction(S throat, S wide, S half_length) : throat_(throat), wide_(wide), half_length_(half_length) {
-        using std::isfinite;
-        detail::require_positive("throat radius", throat);
-        detail::require(wide >= throat && isfinite(wide), "radius of the wide ends", wide,
-                        "finite and at least the throat's");
-        detail::require_positive("half length of the constriction", half_length);
+        detail::require_length("throat radius", throat);
+        detail::require(wide >= throat, "radius of the wide ends", wide, "finite and at least the throat's");
+        detail::require_length("radius of the wide ends", wide);
+        detail::require_length("half length of the constriction", half_length);
     }
 
     S radius(const S& z) const {

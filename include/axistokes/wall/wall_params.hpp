@@ -18,7 +18,7 @@ struct WallMeshParams {
     /// Of the channel's flow, in R0^2 kappa/(eta R0^2). Leave it at 0 if the flow is the scene's background; that one
     /// must vanish on the wall then.
     S flow_rate = S(0);
-    /// Relative error wanted of the particle's velocity and tractions, in (0, 0.1].
+    /// Relative error wanted of the particle's velocity and tractions, in [eps, 0.1].
     S tolerance = S(1e-5);
     /// Length of the wall beyond the particle and the profile's range at either end; default: from the tolerance.
     std::optional<S> length;
@@ -38,9 +38,9 @@ template <class S>
 void validate(const WallMeshParams<S>& p) {
     using std::isfinite;
     require(isfinite(p.flow_rate), "flow rate", p.flow_rate, "finite");
-    require(p.tolerance > S(0) && p.tolerance <= S(0.1), "wall tolerance", p.tolerance, "in (0, 0.1]");
+    require_tolerance("wall tolerance", p.tolerance);
     if (p.length) {
-        require(*p.length > S(0) && isfinite(*p.length), "wall length", *p.length, "> 0 and finite");
+        require_length("wall length", *p.length);
     }
     if (p.panels) {
         require(*p.panels >= 2, "number of wall panels", *p.panels, "at least 2");
