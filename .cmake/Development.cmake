@@ -20,3 +20,15 @@ if(AXISTOKES_NATIVE)
 endif()
 # The library and what links it must agree on this.
 target_link_libraries(axistokes_compiled PUBLIC axistokes_native PRIVATE axistokes_warnings)
+
+# Fuzzing (tests/fuzz): everything is instrumented, so that the fuzzer sees where inputs lead.
+option(AXISTOKES_FUZZ "Build the fuzz targets and all else with libFuzzer's instrumentation and sanitizers (clang++)" OFF)
+if(AXISTOKES_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "AXISTOKES_FUZZ needs clang++: -DCMAKE_CXX_COMPILER=clang++")
+  endif()
+  set(axistokes_fuzz_flags -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+      -fno-omit-frame-pointer -g)
+  add_compile_options(${axistokes_fuzz_flags})
+  add_link_options(${axistokes_fuzz_flags})
+endif()

@@ -278,7 +278,9 @@ class PassageRun {
             const double section = wall_radii(profile_, z).array().square().mean() * std::numbers::pi;
             summary["transit_time_of_fluid"] = section * (profile_.end() - profile_.begin()) / options_.flow_rate;
         }
-        summary["smallest_film"] = film_;
+        if (std::isfinite(film_)) {
+            summary["smallest_film"] = film_;  // unless there was no step
+        }
         summary["largest_pressure_drop"] = drop_;
         summary["critical_tube_radius"] = axistokes::critical_tube_radius(measures_.area, measures_.volume);
         summary["critical_orifice_radius"] = axistokes::critical_orifice_radius(measures_.area, measures_.volume);

@@ -13,6 +13,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <sstream>
 #include <type_traits>
 #include <utility>
@@ -204,6 +205,9 @@ int CommandLine::run(int argc, char** argv, const std::function<int()>& run) {
         return complain(error, bad_input);
     } catch (const axistokes::SimulationFailure& error) {
         return complain(error, simulation_failure);
+    } catch (const std::bad_alloc&) {
+        return complain(axistokes::SimulationFailure("not enough memory: so many elements or panels are too many"),
+                        simulation_failure);
     } catch (const std::exception& error) {
         return complain(error, internal_error);
     }

@@ -77,19 +77,23 @@ namespace detail {
 
 template <class S>
 void validate_steps(const StepControlParams<S>& p) {
+    using std::isfinite;
     if (p.time_step) {
-        require(*p.time_step > S(0), "time step", *p.time_step, "> 0");
+        require(*p.time_step > S(0) && isfinite(*p.time_step), "time step", *p.time_step, "> 0 and finite");
     }
     require(p.smallest_time_step > S(0), "smallest time step", p.smallest_time_step, "> 0");
     require(p.first_time_step >= p.smallest_time_step, "first time step", p.first_time_step,
             "at least the smallest time step");
-    require(p.largest_time_step >= p.first_time_step, "largest time step", p.largest_time_step,
-            "at least the first time step");
+    require(p.largest_time_step >= p.first_time_step && isfinite(p.largest_time_step), "largest time step",
+            p.largest_time_step, "at least the first time step, and finite");
     const S least = 8 * std::numeric_limits<S>::epsilon();
-    require(p.step_tolerance >= least, "error allowed in a step", p.step_tolerance, "at least 8 eps");
-    require(p.largest_displacement > S(0), "largest displacement", p.largest_displacement, "> 0");
-    require(p.largest_strain > S(0), "largest strain", p.largest_strain, "> 0");
-    require(p.growth > S(1), "growth of the time step", p.growth, "> 1");
+    require(p.step_tolerance >= least && isfinite(p.step_tolerance), "error allowed in a step", p.step_tolerance,
+            "at least 8 eps, and finite");
+    require(p.largest_displacement > S(0) && isfinite(p.largest_displacement), "largest displacement",
+            p.largest_displacement, "> 0 and finite");
+    require(p.largest_strain > S(0) && isfinite(p.largest_strain), "largest strain", p.largest_strain,
+            "> 0 and finite");
+    require(p.growth > S(1) && isfinite(p.growth), "growth of the time step", p.growth, "> 1 and finite");
 }
 
 }  // namespace detail

@@ -28,7 +28,8 @@ class Poiseuille {
     Poiseuille(S capillary_number, const Tube& tube) : Poiseuille(capillary_number, S(tube.gap({S(0), S(0)}))) {}
 
     Point<S> velocity(const Point<S>& x) const {
-        return {S(0), capillary_number_ * (tube_radius_ - x.r) * (tube_radius_ + x.r) / (tube_radius_ * tube_radius_)};
+        return {S(0),
+                capillary_number_ * ((tube_radius_ - x.r) * (tube_radius_ + x.r) / (tube_radius_ * tube_radius_))};
     }
     S normal_load(const Point<S>&) const { return S(0); }
     S velocity_scale() const {

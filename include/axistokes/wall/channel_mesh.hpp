@@ -100,6 +100,8 @@ class ChannelMesh {
   private:
     /// Panels of one radius resolve the tube's eigenfunctions.
     static constexpr double length_over_radius = 1.0;
+    /// More than that would not fit into memory: the matrices are dense.
+    static constexpr double most_panels = 10000;
     /// Longest panel over the particle's distance.
     static constexpr double length_over_distance = 3.0;
     /// The particle may move by this much, in wall radii, before the mesh has to follow it.
@@ -167,8 +169,13 @@ class ChannelMesh {
                 params_.grading == WallGrading::uniform ? Scalar(1) : wanted_length(z, particle, film, slack);
             cumulative[i + 1] = cumulative[i] + step / length;
         }
-        const Index count =
-            params_.panels.value_or(static_cast<Index>(ceil(static_cast<double>(cumulative[samples]))) + 1);
+        const auto wanted = static_cast<double>(ceil(cumulative[samples]));
+        if (!params_.panels && !(wanted < most_panels)) {
+            throw SimulationFailure("the wall would take " + detail::text(wanted) +
+                                    " panels: from z = " + detail::text(lower_) + " to " + detail::text(upper_) +
+                                    ", for a film of " + detail::text(film));
+        }
+        const Index count = params_.panels.value_or(static_cast<Index>(wanted) + 1);
         Vector<Scalar> breaks(count + 1);
         breaks[0] = lower_;
         breaks[count] = upper_;
