@@ -7,7 +7,7 @@
 
 int main() {
     using namespace axistokes;
-    const Scene scene(FreeSpaceKernel(), LinearElements(), Vesicle(), Gravity(47.0), DenseLU());
+    const Scene scene(FreeSpaceKernel<>(), LinearElements<>(), Vesicle<>(), Gravity(47.0), DenseLU<>());
     Simulator simulator(scene, SemiImplicitEuler(), spheroid_of_excess_area(0.6, SpheroidKind::prolate, 48));
 
     const std::filesystem::path file = "settling.journal";

@@ -94,12 +94,12 @@ void advance(Simulation& simulation, int steps) {
     }
 }
 
-/// A run stopped after each number of steps from 0 on and gone on with.
+/// A run stopped after each number of steps from `first_stop` on and gone on with.
 template <class Make>
-void check_resumed(const Make& make, int steps) {
+void check_resumed(const Make& make, int steps, int first_stop = 0) {
     auto whole = make();
     advance(whole, steps);
-    for (int stop = 0; stop <= steps; ++stop) {
+    for (int stop = first_stop; stop <= steps; ++stop) {
         INFO("stopped after " << stop);
         const Scratch file;
         auto first = make();
@@ -179,6 +179,19 @@ int steps_in(Journal& journal) {
 
 TEST_CASE("P1 elements and automatic steps go on as if nothing had happened") {
     check_resumed(linear, 5);
+}
+
+TEST_CASE("Steps that go back, and halve the next one, do so too") {
+    constexpr int steps = 82;
+    constexpr int before = 65;
+    auto whole = linear();
+    advance(whole, steps);
+    bool halved = false;
+    for (std::size_t i = before + 1; i < steps; ++i) {
+        halved = halved || whole.history()[i].dt == whole.history()[i - 1].dt / 2;
+    }
+    REQUIRE(halved);
+    check_resumed(linear, steps, before);
 }
 
 TEST_CASE("Rejected steps, and steps that land on given times, do so too") {

@@ -240,6 +240,7 @@ class StepJournal : public StepRecorder<S> {
 
   private:
     static constexpr const char* mark = "axistokes journal of steps";
+    /// To be raised with any change of RecordedStep and its parts.
     static constexpr std::uint32_t format = 1;
 
     struct Header {
