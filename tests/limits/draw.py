@@ -35,8 +35,8 @@ def options(row):
 
 
 TITLES = {"excess-area": "excess area", "bond": "|Bond number|", "capillary-number": "|Ca|", "seconds": "seconds",
-          "unbounded-capillary-number": "|Ca_unb|", "slack": "1 - L/(largest L)", "elements": "elements given", "dt": "--dt",
-          "tolerance": "--tolerance", "gap": "gap of spheres", "throat": "radius of the throat", "flow-rate": "flow rate",
+          "unbounded-capillary-number": "|Ca_unb|", "slack": "1 - L/(largest L)", "elements": "elements given", "dt": "fixed time step",
+          "tolerance": "tolerance given", "gap": "gap of spheres", "throat": "radius of the throat", "flow-rate": "flow rate",
           "aspect": "aspect"}
 
 
