@@ -2,6 +2,7 @@
 // Finds the motion of a rigid body, with as many elements as the accuracy takes.
 #include "../support/body_case.hpp"
 #include "../support/results.hpp"
+#include "../support/thin_film.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -10,12 +11,6 @@
 namespace examples {
 
 namespace {
-
-/// What is left of a force when the wall has cancelled the rest of it, for a sphere of that gap over the tube's radius:
-/// the inverse of its drag factor, 1.66 gap^(-5/2) for small gaps, within a factor of two (docs/sphere_in_tube.md).
-double remainder(double gap) {
-    return std::min(1.0, 0.6 * std::pow(gap, 2.5));
-}
 
 double relative_gap(const BodyCase& c) {
     return 1 - c.shape(128).r.maxCoeff() / *c.surroundings.tube_radius;
@@ -26,13 +21,10 @@ BodyCase resolved(BodyCase c) {
     if (!c.surroundings.tube_radius) {
         return c;
     }
-    const double left = std::min(1.0, 10 * remainder(relative_gap(c)));
-    const auto tightened = [&](double tolerance, double least) {
-        return std::min(tolerance, std::max(tolerance * left, least));
-    };
-    c.tolerance = tightened(c.tolerance, 2e-13);
+    const double left = 10 * remainder(relative_gap(c));
+    c.tolerance = tightened(c.tolerance, left);
     if (c.surroundings.wall) {
-        c.surroundings.wall->tolerance = tightened(c.surroundings.wall->tolerance, 1e-11);
+        c.surroundings.wall->tolerance = tightened(c.surroundings.wall->tolerance, left, 1e-11);
     }
     return c;
 }

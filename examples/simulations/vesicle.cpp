@@ -3,7 +3,9 @@
 // Driver.
 #include "../support/progress.hpp"
 #include "../support/results.hpp"
+#include "../support/thin_film.hpp"
 #include "../support/vesicle_case.hpp"
+#include <axistokes/geometry/tube_shapes.hpp>
 
 #include <chrono>
 #include <memory>
@@ -26,7 +28,8 @@ class VesicleRun {
         : case_(c),
           run_(c.run.resolved()),
           params_(run_.params()),
-          discretization_(discretization_for(run_.method)),
+          tolerance_(tolerance_for(case_, run_)),
+          discretization_(AnyDiscretization::of(run_.method.kind(), tolerance_)),
           frames_(run_.frame_times) {
         // With as many elements as that takes Newton's method does not get below round-off.
         axistokes::detail::require(!(run_.method.kind() == DiscretizationKind::adaptive && run_.adapts() &&
@@ -54,6 +57,23 @@ class VesicleRun {
     }
 
   private:
+    /// Of integrals and of the tube's kernel: that of the preset, if any, relative to what the wall leaves of a force
+    /// in the film of the roundest shape that fits.
+    static std::optional<double> tolerance_for(VesicleCase& c, const RunOptions& run) {
+        const auto accuracy = run.method.accuracy();
+        if (!accuracy || !c.surroundings.tube_radius) {
+            return accuracy ? std::optional(accuracy->quadrature) : std::nullopt;
+        }
+        const double volume = 4 * std::numbers::pi / 3;
+        const double narrowest = axistokes::critical_tube_radius(3 * volume + c.excess_area, volume);
+        // Vesicles have no such drag: they deform, and are carried along by the fluid.
+        const double left = 100 * remainder(std::max(0.0, 1 - narrowest / *c.surroundings.tube_radius));
+        if (c.surroundings.wall) {
+            c.surroundings.wall->tolerance = tightened(c.surroundings.wall->tolerance, left, 1e-11);
+        }
+        return tightened(accuracy->quadrature, left);
+    }
+
     /// From the initial shape, of exact area and volume where they can be had.
     Simulation simulation(Index elements) {
         // What the initial shape lacks a run to a given time would never make up for.
@@ -79,7 +99,7 @@ class VesicleRun {
                                                axistokes::detail::text(widest) + ", the tube's " +
                                                axistokes::detail::text(*tube) + few);
         }
-        Simulation simulation(Scene(kernel_for(case_.surroundings, run_.method), discretization_, Law(Vesicle()),
+        Simulation simulation(Scene(kernel_for(case_.surroundings, tolerance_), discretization_, Law(Vesicle()),
                                     case_.drive, Solver(), wall_for(case_.surroundings)),
                               run_.method.steps(params_.step_tolerance), shape, params_);
         simulation.record_in(journal_);
@@ -127,6 +147,7 @@ class VesicleRun {
     VesicleCase case_;
     RunOptions run_;
     axistokes::SimulationParams<double> params_;
+    std::optional<double> tolerance_;
     AnyDiscretization discretization_;
     FramesAt frames_;
     std::shared_ptr<Journal> journal_;  // from the first step on
