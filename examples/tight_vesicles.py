@@ -18,7 +18,7 @@ from pathlib import Path
 
 # (v, confinement/limit): velocity over the flow's mean and thinnest film over R0 in the limit of strong flows, from the
 # data of J. M. Barakat & E. S. G. Shaqfeh, "The steady motion of a closely fitting vesicle in a tube", J. Fluid Mech.
-# 835 (2018) 721 (github.com/jbarakat/ves_lub_highCa, output/v*/conf*, commit c448301: 1/(1 - Q2) and (1 - max r)
+# (2018) (github.com/jbarakat/ves_lub_highCa, output/v*/conf*, commit c448301: 1/(1 - Q2) and (1 - max r)
 # (4 pi/(3 V))^(1/3) of their units).
 LUBRICATION = {
     (0.6, 0.95): (1.05036, 0.02169), (0.6, 0.98): (1.02000, 0.00846), (0.6, 0.99): (1.00997, 0.00384),
