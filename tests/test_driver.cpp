@@ -7,6 +7,7 @@
 #include <axistokes/discretization/spectral_meridian.hpp>
 #include <axistokes/flow/gravity.hpp>
 #include <axistokes/flow/quiescent.hpp>
+#include <axistokes/flow/unbounded_poiseuille.hpp>
 #include <axistokes/geometry/shapes.hpp>
 #include <axistokes/kernel/free_space.hpp>
 #include <axistokes/kernel/tube.hpp>
@@ -301,4 +302,57 @@ TEST_CASE("A gap that the most modes do not resolve ends the run, with that as t
     CHECK(cause.find("the distance to the next body, 0.0022") == 0);
     CHECK(cause.find("is less than 160 elements can resolve") != std::string::npos);
     CHECK_FALSE(driver.result().error_met());
+}
+
+TEST_CASE("drivers: what the residual leaves of the slowest disturbance is part of the estimate") {
+    // Close to a sphere in a strong flow a residual of 1e-5 of the flow is a large one of the shape's.
+    using Flow = UnboundedPoiseuille<double>;
+    using Driven = Simulator<FreeSpaceKernel<double>, SpectralMeridian<double>, Vesicle<double>, Flow,
+                             ExtrapolatedEulerOfOrder, DenseLU<double>>;
+    const auto length = [](double eps, double tolerance, double* estimate) {
+        DriverParams<double> params = accuracy(eps, false);
+        params.elements = 24;
+        params.newton_tolerance = tolerance;
+        Driver<Driven> driver(
+            [&](Index elements) {
+                SimulationParams<double> simulation;
+                simulation.tolerance = tolerance;
+                const SpectralMeridian<double> series;
+                const auto shape = [](Index n) { return spheroid_of_excess_area(0.002, SpheroidKind::oblate, n); };
+                return Driven(Scene(FreeSpaceKernel<double>(), series, Vesicle<double>(), Flow(150), DenseLU<double>()),
+                              ExtrapolatedEulerOfOrder(), nodes_of(series, shape, elements), simulation);
+            },
+            params);
+        const auto& result = driver.run();
+        const auto& shape = result.configuration().shape;
+        *estimate = result.error_estimate;
+        return shape.z[shape.elements()] - shape.z[0];
+    };
+    double estimate = 0;
+    const double exact = length(1e-9, 1e-13, &estimate);
+    CHECK(estimate < 1e-5);
+    for (const double eps : {1e-2, 1e-3, 1e-4}) {
+        const double error = std::abs(length(eps, 1e-4, &estimate) / exact - 1);
+        INFO("accuracy " << eps << ", error " << error << ", estimate " << estimate);
+        CHECK(error < 5 * estimate);
+        CHECK(error < 3 * eps);
+    }
+}
+
+TEST_CASE("drivers: Newton's method stops when the observer says so") {
+    DriverParams<double> params = accuracy(1e-6, false);
+    params.way = WayToStationary::newton;
+    using Simulation = Settling<SpectralMeridian<double>, Vesicle<double>>;
+    std::size_t last = 0;
+    int again = 0;
+    Driver<Simulation> driver(settling<SpectralMeridian<double>>(0.6, 47), params, [&](const Simulation& s) {
+        again = s.history().size() == last ? again + 1 : 0;
+        last = s.history().size();
+        return again < 2;
+    });
+    const auto& result = driver.run();
+    CHECK(result.interrupted);
+    CHECK(!result.stationary);
+    CHECK_THAT(result.newton_failure, Catch::Contains("stopped"));
+    CHECK(result.instant() != nullptr);
 }

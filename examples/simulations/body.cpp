@@ -51,6 +51,7 @@ int run_body(const BodyCase& given) {
     }
     Driver driver(simulation, driver_params, [](const Simulation&) { return true; });
     Ending ending = run_to_the_end(driver, begin);
+    ending.result.error_estimate += wall_error(driver.simulation(), ending.result, c.surroundings);
     if (c.surroundings.tube_radius) {
         // No number of elements tells what the integrals lack.
         ending.result.error_estimate += c.tolerance / (10 * remainder(relative_gap(c)));

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -33,6 +34,28 @@ Ending run_to_the_end(Driver& driver, std::chrono::steady_clock::time_point begi
     ending.result.interrupted = ending.result.interrupted || !recorded;
     ending.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return ending;
+}
+
+double wall_error(const Simulation& simulation, const Driver::Result& result, const Surroundings& surroundings) {
+    if (!surroundings.wall || !result.instant()) {
+        return 0;
+    }
+    Surroundings finer = surroundings;
+    finer.wall->tolerance /= 10;
+    if (finer.wall->panels) {
+        finer.wall->panels = 2 * *finer.wall->panels;
+    }
+    if (finer.wall->length) {
+        finer.wall->length = 2 * *finer.wall->length;
+    }
+    const Scene& scene = simulation.scene();
+    try {
+        Scene other(scene.kernel(), scene.discretization(), scene.laws(), scene.flow(), Solver(), wall_for(finer));
+        const double exact = other.evaluate(result.bodies, 0.0).front().velocity;
+        return std::abs(*result.velocity - exact) / std::abs(exact);
+    } catch (const axistokes::SimulationFailure&) {
+        return std::numeric_limits<double>::infinity();
+    }
 }
 
 std::vector<axistokes::Column<double>> last_shape_columns(const axistokes::Configuration<double>& configuration,
@@ -167,7 +190,7 @@ void print(const nlohmann::ordered_json& summary, const std::string& directory) 
         std::cout << "  the accuracy is not met"
                   << (summary["error_estimate"].is_null() ? ", or there is no telling" : "") << '\n';
     }
-    for (const char* failure : {"newton_failure", "refinement_failure"}) {
+    for (const char* failure : {"spectral_failure", "newton_failure", "refinement_failure"}) {
         if (summary.contains(failure)) {
             std::cout << "  " << failure << ": " << summary[failure].get<std::string>() << '\n';
         }

@@ -19,6 +19,11 @@ namespace examples {
 
 namespace {
 
+/// So many elements cannot carry it.
+struct InitialShapeFailure : axistokes::SimulationFailure {
+    using SimulationFailure::SimulationFailure;
+};
+
 class VesicleRun {
     using Index = axistokes::Index;
     using Shape = axistokes::Meridian<double>;
@@ -39,24 +44,64 @@ class VesicleRun {
     }
 
     int operator()() {
-        const auto begin = std::chrono::steady_clock::now();
-        const InterruptGuard guard;
-        ProgressBar bar;
-        Approach approach(params_.tolerance);
-        Driver driver([&](Index elements) { return simulation(elements); }, run_.driver_params(),
-                      [&](const Simulation& s) {
-                          observe(s, approach, bar);
-                          return !guard.interrupted();
-                      });
-        journal_ = run_.checkpoints.journal(run_.directory);
-        driver.simulation().record_in(journal_);
-        const Ending ending = run_to_the_end(driver, begin);
-        bar.hide();
-        return conclude(driver.simulation(), ending, run_, frames_.frames(), summary(driver.simulation(), ending),
-                        journal_.get());
+        std::optional<int> code;
+        while (!(code = attempt())) {
+            run_.method.usual_discretization = "adaptive";
+            discretization_ = AnyDiscretization::of(run_.method.kind(), tolerance_);
+        }
+        return *code;
     }
 
   private:
+    /// The exit code; none if another discretisation is to be tried.
+    std::optional<int> attempt() {
+        ProgressBar bar;
+        Approach approach(params_.tolerance);
+        try {
+            Driver driver([&](Index elements) { return simulation(elements); }, run_.driver_params(),
+                          [&](const Simulation& s) {
+                              observe(s, approach, bar);
+                              return !guard_.interrupted() && !overtaxed(s);
+                          });
+            if (!journal_) {
+                journal_ = run_.checkpoints.journal(run_.directory);
+                driver.simulation().record_in(journal_);
+            }
+            Ending ending = run_to_the_end(driver, begin_);
+            bar.hide();
+            const bool failed = !ending.failure.empty() && !ending.result.interrupted;
+            if (may_change() && (failed || overtaxed(driver.simulation()))) {
+                given_up_ = ending.failure.empty() ? "the forces' power is not that of weight and elastic energy"
+                                                   : ending.failure;
+                return std::nullopt;
+            }
+            ending.result.error_estimate += wall_error(driver.simulation(), ending.result, case_.surroundings);
+            return conclude(driver.simulation(), ending, run_, frames_.frames(), summary(driver.simulation(), ending),
+                            journal_.get());
+        } catch (const InitialShapeFailure& failure) {
+            if (!may_change()) {
+                throw;
+            }
+            given_up_ = failure.what();
+            return std::nullopt;
+        }
+    }
+
+    /// Whether a series was neither asked for nor the last resort.
+    bool may_change() const {
+        const auto& method = run_.method;
+        return !method.discretization && method.kind() == DiscretizationKind::spectral && run_.adapts() &&
+               (run_.transient() || run_.driver_params().eps >= 1e-8) && !guard_.interrupted();
+    }
+
+    /// Whether the largest number of modes does not carry the shape.
+    bool overtaxed(const Simulation& simulation) const {
+        constexpr double mismatch = 1e-2;
+        return may_change() && !simulation.history().empty() &&
+               simulation.configuration().shape.elements() >= axistokes::most_elements(discretization_) &&
+               simulation.history().back().power_mismatch > mismatch;
+    }
+
     /// Of integrals and of the tube's kernel: that of the preset, if any, relative to what the wall leaves of a force
     /// in the film of the roundest shape that fits.
     static std::optional<double> tolerance_for(VesicleCase& c, const RunOptions& run) {
@@ -90,14 +135,12 @@ class VesicleRun {
         const std::string few = ": " + std::to_string(shape.elements()) + " elements cannot carry it";
         const double off = discretization_.measures(shape).area / area - 1;
         if (std::abs(off) > 0.05) {
-            throw axistokes::SimulationFailure("the initial shape's area is off by " + axistokes::detail::text(off) +
-                                               few);
+            throw InitialShapeFailure("the initial shape's area is off by " + axistokes::detail::text(off) + few);
         }
         const auto& tube = case_.surroundings.tube_radius;
         if (const double widest = discretization_.max_radius(shape); tube && !(widest < *tube)) {
-            throw axistokes::SimulationFailure("the initial shape's largest radius is " +
-                                               axistokes::detail::text(widest) + ", the tube's " +
-                                               axistokes::detail::text(*tube) + few);
+            throw InitialShapeFailure("the initial shape's largest radius is " + axistokes::detail::text(widest) +
+                                      ", the tube's " + axistokes::detail::text(*tube) + few);
         }
         Simulation simulation(Scene(kernel_for(case_.surroundings, tolerance_), discretization_, Law(Vesicle()),
                                     case_.drive, Solver(), wall_for(case_.surroundings)),
@@ -121,6 +164,9 @@ class VesicleRun {
     nlohmann::ordered_json summary(const Simulation& simulation, const Ending& ending) const {
         nlohmann::ordered_json summary = summarize(simulation, ending);
         run_.method.describe(summary);
+        if (!given_up_.empty()) {
+            summary["spectral_failure"] = given_up_;
+        }
         summary["method_stationary"] = run_.method.stationary;
         if (case_.surroundings.tube_radius) {
             summary.update(tube_summary(simulation, ending, case_.mean_velocity));
@@ -144,12 +190,15 @@ class VesicleRun {
         return end;
     }
 
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    InterruptGuard guard_;
     VesicleCase case_;
     RunOptions run_;
     axistokes::SimulationParams<double> params_;
     std::optional<double> tolerance_;
     AnyDiscretization discretization_;
     FramesAt frames_;
+    std::string given_up_;              // why series were, if they were
     std::shared_ptr<Journal> journal_;  // from the first step on
 };
 

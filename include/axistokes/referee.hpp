@@ -22,8 +22,8 @@ namespace axistokes {
 template <class S>
 struct Verdict {
     /// Power of the bodies' forces minus those of weight and of the energy that the membranes release, which are all
-    /// there is, over the sum of those two, the energy times the rate at which the shape changes and, in a flow, the
-    /// dissipation of the disturbance.
+    /// there is, over the sum of those two, the energy times the rate at which the shape changes (at least 1: smaller
+    /// ones are not known better) and, in a flow, the dissipation of the disturbance.
     S power_mismatch{};
     /// Largest share of the last modes, of a discretisation that tells.
     S unresolved{};
@@ -84,7 +84,8 @@ class Referee {
         S undisturbed_speed{};
         bool given_velocity = false;
 
-        S mismatch() const { return power - weight_power - released; }
+        /// What moves bodies of given velocities has a power of its own.
+        S mismatch() const { return given_velocity ? S(0) : S(power - weight_power - released); }
     };
 
     Balance balance_of(const State& state, const Instants& instants) const {
@@ -96,7 +97,7 @@ class Referee {
             const auto& surface = instant.surface;
             const Index n = surface.size();
             balance.given_velocity = balance.given_velocity || detail::given_velocity(scene_.law(b)).has_value();
-            balance.undisturbed_speed = std::max(balance.undisturbed_speed, instant.undisturbed_speed);
+            balance.undisturbed_speed = std::max(balance.undisturbed_speed, undisturbed_speed(state[b], instant));
             balance.power += detail::power<S>(surface, instant.solution.force, instant.solution.velocity);
             balance.scale += instant.undisturbed_speed > S(0) ? S(abs(instant.power)) : S(0);
             Vector<S> places(2 * n);
@@ -118,8 +119,20 @@ class Referee {
         return balance;
     }
 
+    /// Largest velocity of the undisturbed flow on the body, and on the axis inside it.
+    template <class Instant>
+    S undisturbed_speed(const Configuration<S>& body, const Instant& instant) const {
+        using std::abs;
+        S speed = instant.undisturbed_speed;
+        for (Index i = 0; i < body.shape.nodes(); ++i) {
+            const S along = scene_.centreline_velocity(S(body.position + body.shape.z[i]));
+            speed = std::max(speed, S(abs(along)));
+        }
+        return speed;
+    }
+
     /// The rate at which a body's energy falls, or, if its law does not tell, the power of its forces; and the energy
-    /// times the rate at which the shape changes by R0.
+    /// times the rate at which the shape changes by R0, or at which bending would change it.
     template <class Instant>
     std::pair<S, S> energy_released(const Configuration<S>& body, const Instant& instant, std::size_t b) const {
         using std::abs;
@@ -143,7 +156,7 @@ class Referee {
         // An energy of second derivatives is known to eps n^2.
         const S n = S(body.shape.elements());
         const S blur = 20 * n * n * pow(std::numeric_limits<S>::epsilon(), S(0.7));
-        return {speed > S(0) ? S((*before - after) / (2 * step)) : S(0), S((1 + blur) * after * speed)};
+        return {speed > S(0) ? S((*before - after) / (2 * step)) : S(0), S((1 + blur) * after * std::max(speed, S(1)))};
     }
 
     std::string fault(const State& state, const Instants& instants, const Balance& balance, bool resolved,
@@ -171,7 +184,7 @@ class Referee {
         using std::abs;
         using std::sqrt;
         const S mobility = 3 / (10 * detail::pi_value<S>() * balance.smallest);
-        const S released = std::max(S(0), balance.released);
+        const S released = std::max(S(0), balance.released) + S(largest_mismatch) * balance.scale;
         const S most = balance.undisturbed_speed + mobility * balance.weight + sqrt(mobility * released);
         for (const auto& instant : instants) {
             const S speed = abs(instant.velocity);

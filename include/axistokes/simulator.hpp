@@ -297,7 +297,7 @@ class Simulator {
                 if (dynamic_cast<const Untrue*>(&failure)) {
                     ++made.refused;
                     refused_ += good_steps;
-                    if (control_.fixed() || refused_ > 3 * good_steps) {
+                    if (!control_.fixed() && refused_ > 3 * good_steps) {
                         fail(failure.what());
                     }
                 }

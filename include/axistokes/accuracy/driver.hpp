@@ -78,7 +78,7 @@ class Driver {
     using Result = DriverResult<Simulator>;
     /// The simulation from its initial shape, with so many elements at least: more if they could not carry it.
     using Make = std::function<Simulator(Index)>;
-    /// Called after every step; false stops the run.
+    /// Called after every step, and before every iteration of Newton's method; false stops the run.
     using Observer = std::function<bool(const Simulator&)>;
 
     Driver(
@@ -788,6 +788,10 @@ class Driver {
             solver_params.tolerance = params_.newton_tolerance;
             solver_params.to_round_off = params_.to_round_off;
             solver_params.coarse_start = !(simulator_->residual() <= 2 * near());
+            solver_params.proceed = [this] {
+                stopped_ = stopped_ || !observe_(*simulator_);
+                return !stopped_;
+            };
             Solver solver(simulator_->scene(), solver_params);
             const State start = centred();
             const bool several = start.size() > 1;
@@ -826,6 +830,7 @@ class Driver {
                     examined = true;
                 }
                 if (last) {
+                    settle<Solver>(state, measures, solver_params, error);
                     return;
                 }
                 try {
@@ -850,10 +855,41 @@ class Driver {
                     if (!examined) {
                         examine(solver, state, measures, error);
                     }
+                    settle<Solver>(state, measures, solver_params, error);
                     return;
                 }
             }
         }
+    }
+
+    /// What the residual leaves of the slowest disturbance of a body that is alone, over its length.
+    template <class Found>
+    S residual_error(const Found& state) const {
+        using std::abs;
+        if (!result_.growth_rate || state.bodies.size() > 1) {
+            return S(0);
+        }
+        const S scale = std::max(S(1), simulator_->scene().velocity_scale());
+        return state.residual * scale / (abs(*result_.growth_rate) * S(length(state.bodies.front())));
+    }
+
+    /// Goes on for as long as the accuracy takes, now that the slowest disturbance is known.
+    template <class Newton, class Found>
+    void settle(Found state, const std::vector<Measures<S>>& measures, typename Newton::Params params, const S& error) {
+        if (const S rest = residual_error(state); rest > params_.eps / 2) {
+            params.tolerance =
+                std::max<S>(state.residual * params_.eps / (4 * rest), S(64 * std::numeric_limits<S>::epsilon()));
+            try {
+                auto closer = Newton(simulator_->scene(), params).solve(state.bodies, measures);
+                require_true(closer.bodies, closer.instants);
+                result_.newton_iterations += closer.iterations;
+                result_.newton_evaluations += closer.evaluations;
+                state = std::move(closer);
+            } catch (const SimulationFailure& failure) {
+                result_.refinement_failure = failure.what();
+            }
+        }
+        adopt(state, error + residual_error(state));
     }
 
     /// Of Newton's method: the Jacobian of several bodies costs more.

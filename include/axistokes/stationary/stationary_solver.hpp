@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <complex>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -37,6 +38,8 @@ struct StationaryParams {
     bool only_stable = true;
     /// Solve with half of the modes or elements first.
     bool coarse_start = true;
+    /// Asked before every iteration, if there is one; false ends the search with a SimulationFailure.
+    std::function<bool()> proceed{};
 };
 
 template <class S, class InstantType>
@@ -124,6 +127,8 @@ requires(SceneType::deformable) class StationarySolver {
                 }
                 iterate(scene_, start, conserved, params_.tolerance, linearisation, state);
                 return state;
+            } catch (const Stopped&) {
+                throw;
             } catch (const SimulationFailure&) {
                 // Half of the nodes may not resolve the shape.
                 linearisation = {};
@@ -183,6 +188,10 @@ requires(SceneType::deformable) class StationarySolver {
     }
 
   private:
+    struct Stopped : SimulationFailure {
+        using SimulationFailure::SimulationFailure;
+    };
+
     using Point = detail::StationaryPoint<SceneType>;
 
     using Conserved = std::vector<axistokes::Conserved<Scalar>>;
@@ -301,6 +310,9 @@ requires(SceneType::deformable) class StationarySolver {
                 throw SimulationFailure("stationary state: the residual is " + detail::text(point.residual) +
                                         " after " + std::to_string(params_.most_iterations) + " iterations, not " +
                                         detail::text(tolerance));
+            }
+            if (params_.proceed && !params_.proceed()) {
+                throw Stopped("stationary state: stopped with a residual of " + detail::text(point.residual));
             }
             ++state.iterations;
             if (jacobian.size() == 0) {
