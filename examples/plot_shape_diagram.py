@@ -82,7 +82,7 @@ def draw_shape(axes, states, directory, confinement, volume):
     nearest = min(states, key=lambda s: abs(s["confinement"] - confinement) + abs(s["reduced_volume"] - volume))
     case = [s for s in states if all(s[k] == nearest[k] for k in ("confinement", "reduced_volume"))]
     for state in case:
-        name = "shape_{:g}_{:g}_{:g}_{}.csv".format(state["confinement"], state["reduced_volume"],
+        name = "shape_{:.12g}_{:.12g}_{:.12g}_{}.csv".format(state["confinement"], state["reduced_volume"],
                                                     state["capillary_number"], state["start"])
         r, z = np.loadtxt(directory / name, delimiter=",", skiprows=1).T
         axes.plot(np.concatenate([z, z[::-1]]), np.concatenate([r, -r[::-1]]), color=COLORS[state["branch"]], lw=1.3)

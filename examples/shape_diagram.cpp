@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -45,6 +46,18 @@ struct Found {
     double seconds = 0;
 };
 
+/// What later cases start from.
+struct Starts {
+    std::optional<Meridian<double>> oblate;     // where the oblate start led
+    std::optional<Meridian<double>> parachute;  // a stable one
+};
+
+struct Solution {
+    std::vector<Found> found;
+    std::string failure;
+    Starts starts;
+};
+
 double excess_area(double reduced_volume) {
     return 4 * detail::pi_value<double>() * (std::pow(reduced_volume, -2.0 / 3) - 1);
 }
@@ -68,9 +81,9 @@ class Diagram {
 
     /// The states that the starts lead to, one if they are the same, and what went wrong. Where the oblate start finds
     /// nothing else, the parachute of a case that differs in reduced volume only is tried.
-    std::pair<std::vector<Found>, std::string> solve(const Case& wanted) {
-        std::vector<Found> found;
-        std::string failure;
+    Solution solve(const Case& wanted) {
+        Solution solution;
+        auto& [found, failure, starts] = solution;
         const auto attempt = [&](const std::string& name, const auto& state) {
             const auto begin = std::chrono::steady_clock::now();
             try {
@@ -85,18 +98,29 @@ class Diagram {
             }
         };
         attempt("prolate", [&] { return from_prolate(wanted); });
-        attempt("oblate", [&] { return from_oblate(wanted); });
+        attempt("oblate", [&] { return from_oblate(wanted, starts.oblate); });
         if (found.size() < 2) {
             attempt("neighbour", [&] { return from_neighbour(wanted); });
         }
-        const std::pair column(wanted.confinement, wanted.capillary_number);
-        parachutes_.erase(column);  // one attempt: further away there is less hope
         for (const Found& f : found) {
             if (is_parachute(f) && f.growth < 0) {
-                parachutes_.insert_or_assign(column, std::pair(wanted, f.state.configuration().shape));
+                starts.parachute = f.state.configuration().shape;
             }
         }
-        return {std::move(found), std::move(failure)};
+        remember(wanted, starts);
+        return solution;
+    }
+
+    /// Of a case that was solved, now or in an earlier run.
+    void remember(const Case& solved, const Starts& starts) {
+        if (starts.oblate) {
+            oblate_.emplace(solved, *starts.oblate);
+        }
+        const std::pair column(solved.confinement, solved.capillary_number);
+        parachutes_.erase(column);  // one attempt: further away there is less hope
+        if (starts.parachute) {
+            parachutes_.insert_or_assign(column, std::pair(solved, *starts.parachute));
+        }
     }
 
     static bool is_parachute(const Found& f) {
@@ -132,7 +156,7 @@ class Diagram {
 
     /// An oblate start that does not fit is solved in a wider tube, which then is narrowed; or the last case's state is
     /// taken, if its tube was wider and the rest the same.
-    std::optional<Found> from_oblate(const Case& wanted) {
+    std::optional<Found> from_oblate(const Case& wanted, std::optional<Meridian<double>>& start_of_next) const {
         const double excess = excess_area(wanted.reduced_volume);
         Case fitting = wanted;
         const auto spheroid = spheroid_of_excess_area<double>(excess, SpheroidKind::oblate, settings_.elements);
@@ -149,7 +173,7 @@ class Diagram {
             found = continued(state.configuration().shape, fitting, wanted);
         }
         if (found) {
-            oblate_.emplace(wanted, found->state.configuration().shape);
+            start_of_next = found->state.configuration().shape;
         }
         return found;
     }
@@ -244,13 +268,75 @@ std::string rows(const Case& c, const std::vector<Found>& found, const std::stri
     return out.str();
 }
 
+/// A file of the starts of all cases solved, with which another run goes on as this one would: a line each, of the
+/// case, the kind, and r and z of each node.
+class StartsTable {
+  public:
+    explicit StartsTable(std::filesystem::path path) : path_(std::move(path)) {
+        std::ifstream input(path_);
+        std::string line;
+        while (std::getline(input, line) && !input.eof()) {
+            read(line);
+        }
+    }
+
+    Starts of(const Case& c) const {
+        const auto known = starts_.find(examples::key(c));
+        return known == starts_.end() ? Starts{} : known->second;
+    }
+
+    void append(const Case& c, const Starts& starts) const {
+        std::ofstream out(path_, std::ios::app);
+        out.precision(17);
+        const auto write = [&](const char* kind, const std::optional<Meridian<double>>& shape) {
+            if (shape) {
+                out << examples::key(c) << ' ' << kind;
+                for (Index i = 0; i < shape->nodes(); ++i) {
+                    out << ' ' << shape->r[i] << ' ' << shape->z[i];
+                }
+                out << '\n';
+            }
+        };
+        write("oblate", starts.oblate);
+        write("parachute", starts.parachute);
+        if (!out.flush()) {
+            throw OutputError(path_, std::make_error_code(std::errc::io_error));
+        }
+    }
+
+  private:
+    void read(const std::string& line) {
+        std::istringstream in(line);
+        std::string known;
+        std::string kind;
+        in >> known >> kind;
+        std::vector<double> values;
+        for (double value = 0; in >> value;) {
+            values.push_back(value);
+        }
+        const auto nodes = static_cast<Index>(values.size() / 2);
+        if (nodes < 9) {
+            return;  // torn
+        }
+        Meridian<double> shape{Vector<double>(nodes), Vector<double>(nodes)};
+        for (Index i = 0; i < nodes; ++i) {
+            shape.r[i] = values[static_cast<std::size_t>(2 * i)];
+            shape.z[i] = values[static_cast<std::size_t>(2 * i + 1)];
+        }
+        (kind == "oblate" ? starts_[known].oblate : starts_[known].parachute) = std::move(shape);
+    }
+
+    std::filesystem::path path_;
+    std::map<std::string, Starts> starts_;
+};
+
 void write_shapes(const std::filesystem::path& directory, const Case& c, const std::vector<Found>& found) {
     for (const Found& f : found) {
-        std::ostringstream name;
-        name << "shape_" << c.confinement << '_' << c.reduced_volume << '_' << c.capillary_number << '_' << f.start
-             << ".csv";
+        std::string name = "shape_" + examples::key(c) + '_' + f.start + ".csv";
+        std::replace(name.begin(), name.end(), ',', '_');
         const Meridian<double>& shape = f.state.configuration().shape;
-        write_atomically(directory / name.str(), [&](std::ostream& out) {
+        write_atomically(directory / name, [&](std::ostream& out) {
+            out.precision(17);
             out << "r,z\n";
             for (Index i = 0; i < shape.nodes(); ++i) {
                 out << shape.r[i] << ',' << shape.z[i] << '\n';
@@ -295,18 +381,21 @@ int main(int argc, char** argv) {
             cases.given() ? examples::read_cases(input)
                           : examples::grid(confinement.values(), reduced_volume.values(), capillary_number);
         examples::CaseTable table(std::filesystem::path(directory) / "diagram.csv", kHeader);
+        const StartsTable starts(std::filesystem::path(directory) / "starts.txt");
         Diagram diagram(settings);
         std::size_t done = 0;
         for (const Case& c : wanted) {
             ++done;
             if (table.has(c)) {
+                diagram.remember(c, starts.of(c));
                 continue;
             }
-            const auto [found, failure] = diagram.solve(c);
-            const std::string text = rows(c, found, failure);
+            const Solution solution = diagram.solve(c);
+            const std::string text = rows(c, solution.found, solution.failure);
             if (!settings.shapes.empty()) {
-                write_shapes(settings.shapes, c, found);
+                write_shapes(settings.shapes, c, solution.found);
             }
+            starts.append(c, solution.starts);
             table.append(text);
             std::cout << done << '/' << wanted.size() << ' ' << text << std::flush;
         }
