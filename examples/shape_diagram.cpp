@@ -97,6 +97,13 @@ class Diagram {
                 failure += (failure.empty() ? "" : "; ") + name + ": " + error.what();
             }
         };
+        if (const double narrowest = critical_tube_radius(area(wanted), volume());
+            !(1 / wanted.confinement > narrowest)) {
+            failure = "the tube's radius, " + detail::text(1 / wanted.confinement) + ", is not more than " +
+                      detail::text(narrowest) + ", which this vesicle needs";
+            remember(wanted, starts);
+            return solution;
+        }
         attempt("prolate", [&] { return from_prolate(wanted); });
         attempt("oblate", [&] { return from_oblate(wanted, starts.oblate); });
         if (found.size() < 2) {

@@ -88,7 +88,8 @@ class LineRun {
         if (case_.dragged) {
             sphere.velocity = 1;
         }
-        const auto params = run_.params();
+        auto params = run_.params();
+        params.proceed = [] { return !InterruptGuard::interrupted(); };
         Simulation simulation(Scene(kernel_for(case_.surroundings, run_.method), discretization_,
                                     case_.spheres ? Law(sphere) : Law(Vesicle()), case_.drive, Solver(), AnyWall()),
                               run_.method.steps(params.step_tolerance), shapes, params);

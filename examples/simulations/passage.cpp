@@ -185,6 +185,7 @@ class PassageRun {
         params.step_tolerance = options_.step_tolerance.value_or(accuracy_.step);
         params.most_steps = options_.most_steps;
         params.referee = !options_.method.no_referee;
+        params.proceed = [] { return !InterruptGuard::interrupted(); };
         Simulation simulation(
             Scene(OptionalTubeKernel(OptionalTubeImages()), discretization_, Law(Vesicle()),
                   Drive(axistokes::Quiescent<double>()), Solver(), AnyWall(AnyWall::Mesh(profile_, wall))),

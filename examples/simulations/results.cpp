@@ -5,6 +5,7 @@
 #include <axistokes/io/vtk.hpp>
 #include <axistokes/io/wall_stress.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
@@ -73,6 +74,7 @@ void describe_ending(const Ending& ending, nlohmann::ordered_json& summary) {
     summary["error_met"] = result.error_met();
     summary["accuracy"] = result.eps;
     summary["power_mismatch"] = result.power_mismatch;
+    summary["largest_power_mismatch"] = std::max(result.power_mismatch, result.largest_power_mismatch);
     if (!result.newton_failure.empty()) {
         summary["newton_failure"] = result.newton_failure;
     }

@@ -36,6 +36,7 @@ class VesicleRun {
           tolerance_(tolerance_for(case_, run_)),
           discretization_(AnyDiscretization::of(run_.method.kind(), tolerance_)),
           frames_(run_.frame_times) {
+        params_.proceed = [] { return !InterruptGuard::interrupted(); };
         // With as many elements as that takes Newton's method does not get below round-off.
         axistokes::detail::require(!(run_.method.kind() == DiscretizationKind::adaptive && run_.adapts() &&
                                      !run_.transient() && run_.driver_params().eps < 1e-8),
@@ -61,7 +62,7 @@ class VesicleRun {
             Driver driver([&](Index elements) { return simulation(elements); }, run_.driver_params(),
                           [&](const Simulation& s) {
                               observe(s, approach, bar);
-                              return !guard_.interrupted() && !overtaxed(s);
+                              return !InterruptGuard::interrupted() && !overtaxed(s);
                           });
             if (!journal_) {
                 journal_ = run_.checkpoints.journal(run_.directory);
@@ -91,7 +92,7 @@ class VesicleRun {
     bool may_change() const {
         const auto& method = run_.method;
         return !method.discretization && method.kind() == DiscretizationKind::spectral && run_.adapts() &&
-               (run_.transient() || run_.driver_params().eps >= 1e-8) && !guard_.interrupted();
+               (run_.transient() || run_.driver_params().eps >= 1e-8) && !InterruptGuard::interrupted();
     }
 
     /// Whether the largest number of modes does not carry the shape.
@@ -127,20 +128,14 @@ class VesicleRun {
         Shape shape = spectral && run_.adapts()
                           ? axistokes::resolved_nodes(discretization_, case_.initial, elements, share)
                           : axistokes::nodes_of(discretization_, case_.initial, elements);
-        Shape exact = shape;
-        const double area = 4 * std::numbers::pi + case_.excess_area;
-        if (spectral && case_.excess_area > 0 && discretization_.restore(exact, area, 4 * std::numbers::pi / 3)) {
-            shape = std::move(exact);
+        std::string fault = restored(shape, spectral);
+        for (const Index most = axistokes::most_elements(discretization_);
+             !fault.empty() && run_.adapts() && shape.elements() < most; fault = restored(shape, spectral)) {
+            const Index more = std::min(most, shape.elements() + shape.elements() / 2);
+            shape = axistokes::nodes_of(discretization_, case_.initial, more);
         }
-        const std::string few = ": " + std::to_string(shape.elements()) + " elements cannot carry it";
-        const double off = discretization_.measures(shape).area / area - 1;
-        if (std::abs(off) > 0.05) {
-            throw InitialShapeFailure("the initial shape's area is off by " + axistokes::detail::text(off) + few);
-        }
-        const auto& tube = case_.surroundings.tube_radius;
-        if (const double widest = discretization_.max_radius(shape); tube && !(widest < *tube)) {
-            throw InitialShapeFailure("the initial shape's largest radius is " + axistokes::detail::text(widest) +
-                                      ", the tube's " + axistokes::detail::text(*tube) + few);
+        if (!fault.empty()) {
+            throw InitialShapeFailure(fault + ": " + std::to_string(shape.elements()) + " elements cannot carry it");
         }
         Simulation simulation(Scene(kernel_for(case_.surroundings, tolerance_), discretization_, Law(Vesicle()),
                                     case_.drive, Solver(), wall_for(case_.surroundings)),
@@ -149,6 +144,25 @@ class VesicleRun {
         frames_ = FramesAt(run_.frame_times);
         frames_.visit(0, simulation);
         return simulation;
+    }
+
+    /// Gives the initial shape its exact area and volume, where they can be had; why it is none, or an empty text.
+    std::string restored(Shape& shape, bool spectral) const {
+        Shape exact = shape;
+        const double area = 4 * std::numbers::pi + case_.excess_area;
+        if (spectral && case_.excess_area > 0 && discretization_.restore(exact, area, 4 * std::numbers::pi / 3)) {
+            shape = std::move(exact);
+        }
+        const double off = discretization_.measures(shape).area / area - 1;
+        if (std::abs(off) > 0.05) {
+            return "the initial shape's area is off by " + axistokes::detail::text(off);
+        }
+        const auto& tube = case_.surroundings.tube_radius;
+        if (const double widest = discretization_.max_radius(shape); tube && !(widest < *tube)) {
+            return "the initial shape's largest radius is " + axistokes::detail::text(widest) + ", the tube's " +
+                   axistokes::detail::text(*tube);
+        }
+        return "";
     }
 
     void observe(const Simulation& simulation, Approach& approach, ProgressBar& bar) {

@@ -70,8 +70,8 @@ class Approach {
     double largest_ = 0;
 };
 
-/// While it lives, Ctrl-C (SIGINT), SIGTERM and SIGHUP only set a flag; a second one ends the program as usual. What
-/// the program was started to ignore (nohup) it ignores.
+/// While it lives, Ctrl-C (SIGINT), SIGTERM and SIGHUP only set a flag; a second Ctrl-C ends the program as usual.
+/// What the program was started to ignore (nohup) it ignores.
 class InterruptGuard {
   public:
     InterruptGuard() {
@@ -79,9 +79,7 @@ class InterruptGuard {
         for (std::size_t i = 0; i < signals.size(); ++i) {
             previous_[i] = std::signal(signals[i], [](int) {
                 flag() = 1;
-                for (const int signal : signals) {
-                    std::signal(signal, SIG_DFL);
-                }
+                std::signal(SIGINT, SIG_DFL);
             });
             if (previous_[i] == SIG_IGN) {
                 std::signal(signals[i], SIG_IGN);
@@ -96,7 +94,7 @@ class InterruptGuard {
         }
     }
 
-    bool interrupted() const { return flag() != 0; }
+    static bool interrupted() { return flag() != 0; }
 
   private:
     static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};

@@ -75,6 +75,12 @@ class SimulationFailure : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A computation that was asked to stop: nothing is wrong with it.
+class SimulationStopped : public SimulationFailure {
+  public:
+    using SimulationFailure::SimulationFailure;
+};
+
 namespace detail {
 
 template <class S>

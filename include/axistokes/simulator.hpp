@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -42,6 +43,8 @@ struct SimulationParams : StepControlParams<S> {
     std::vector<S> landing_times{};
     /// Whether each step's numbers are judged (Referee): one that cannot be true is a failure.
     bool referee = true;
+    /// Asked before every attempt to step, if there is one; false ends it with SimulationStopped.
+    std::function<bool()> proceed{};
 };
 
 namespace detail {
@@ -286,6 +289,10 @@ class Simulator {
             fail(failure.what());
         }
         for (;;) {
+            if (params_.proceed && !params_.proceed()) {
+                throw SimulationStopped("step " + std::to_string(steps() + 1) + " at time " + detail::text(time_) +
+                                        ": stopped");
+            }
             try {
                 Attempt next = attempt(dt);
                 made.planned = planned;
@@ -321,6 +328,8 @@ class Simulator {
         made.begin = time_;
         try {
             advance(made);
+        } catch (const SimulationStopped&) {
+            throw;
         } catch (const SimulationFailure& failure) {
             made.failure = failure.what();
             made.wall = scene_.memory();

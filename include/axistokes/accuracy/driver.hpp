@@ -35,8 +35,10 @@ struct DriverResult {
     /// Relative, of velocity and length; infinite if there is no telling.
     S error_estimate = std::numeric_limits<S>::infinity();
     S eps{};
-    /// Largest of all steps, or of the state Newton's method found (Verdict): what energy says of the forces' error.
+    /// Of the last step, or of the state Newton's method found (Verdict): what energy says of the forces' error; and
+    /// the largest of all steps.
     S power_mismatch{};
+    S largest_power_mismatch{};
     /// Why Newton's method, or more elements, did not work; empty if they did, or were not tried.
     std::string newton_failure;
     std::string refinement_failure;
@@ -325,12 +327,15 @@ class Driver {
             try {
                 resolve_films();
                 simulator_->run(observe);
+            } catch (const SimulationStopped&) {
+                stopped_ = true;
             } catch (const SimulationFailure&) {
                 if (!adapts() || rescues-- == 0 || !rescue()) {
                     throw;
                 }
                 continue;
             }
+            going = going && !stopped_;
             if (const auto body = needy(); body && !stopped_) {
                 add_elements(*body);
                 going = steps() < last;
@@ -387,6 +392,8 @@ class Driver {
         take();
         if (steps() > 0 && simulator_->history().back().power_mismatch > S(TheReferee::largest_mismatch)) {
             result_.error_estimate = std::numeric_limits<S>::infinity();
+            result_.refinement_failure = "the elements do not carry the last shape: its power mismatch is " +
+                                         detail::text(simulator_->history().back().power_mismatch);
         }
     }
 
@@ -661,6 +668,8 @@ class Driver {
             if (!stopped_) {
                 result_.error_estimate = S(largest_error(measured(coarse), fine)) + time_error() + film_error();
             }
+        } catch (const SimulationStopped&) {
+            stopped_ = true;
         } catch (const SimulationFailure&) {
             // Without a coarser result there is no telling.
         }
@@ -702,9 +711,10 @@ class Driver {
             // Reported already: the run cannot have ended well on such a shape.
         }
         result_.stationary = simulator_->stationary();
-        result_.power_mismatch = 0;
+        result_.largest_power_mismatch = 0;
         for (const auto& record : simulator_->history()) {
-            result_.power_mismatch = std::max<S>(result_.power_mismatch, record.power_mismatch);
+            result_.power_mismatch = record.power_mismatch;
+            result_.largest_power_mismatch = std::max<S>(result_.largest_power_mismatch, record.power_mismatch);
         }
         if (steps() > 0) {
             result_.residual = simulator_->residual();
@@ -734,7 +744,7 @@ class Driver {
                 march(std::max(near(), simulator_->params().tolerance), 0,
                       std::min<Index>(steps() + patience / 2, simulator_->params().most_steps));
             }
-            if (stopped_ || (simulator_->stationary() && !adapts() && !(params_.newton_tolerance < S(1e-7)))) {
+            if (stopped_) {
                 break;
             }
             if (!arrived && !eager && simulator_->bodies() > 1) {

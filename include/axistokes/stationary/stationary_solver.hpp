@@ -38,7 +38,7 @@ struct StationaryParams {
     bool only_stable = true;
     /// Solve with half of the modes or elements first.
     bool coarse_start = true;
-    /// Asked before every iteration, if there is one; false ends the search with a SimulationFailure.
+    /// Asked before every iteration, if there is one; false ends the search with SimulationStopped.
     std::function<bool()> proceed{};
 };
 
@@ -127,7 +127,7 @@ requires(SceneType::deformable) class StationarySolver {
                 }
                 iterate(scene_, start, conserved, params_.tolerance, linearisation, state);
                 return state;
-            } catch (const Stopped&) {
+            } catch (const SimulationStopped&) {
                 throw;
             } catch (const SimulationFailure&) {
                 // Half of the nodes may not resolve the shape.
@@ -188,10 +188,6 @@ requires(SceneType::deformable) class StationarySolver {
     }
 
   private:
-    struct Stopped : SimulationFailure {
-        using SimulationFailure::SimulationFailure;
-    };
-
     using Point = detail::StationaryPoint<SceneType>;
 
     using Conserved = std::vector<axistokes::Conserved<Scalar>>;
@@ -312,7 +308,7 @@ requires(SceneType::deformable) class StationarySolver {
                                         detail::text(tolerance));
             }
             if (params_.proceed && !params_.proceed()) {
-                throw Stopped("stationary state: stopped with a residual of " + detail::text(point.residual));
+                throw SimulationStopped("stationary state: stopped with a residual of " + detail::text(point.residual));
             }
             ++state.iterations;
             if (jacobian.size() == 0) {
