@@ -293,7 +293,7 @@ class StartsTable {
     }
 
     void append(const Case& c, const Starts& starts) const {
-        std::ofstream out(path_, std::ios::app);
+        std::ostringstream out;
         out.precision(17);
         const auto write = [&](const char* kind, const std::optional<Meridian<double>>& shape) {
             if (shape) {
@@ -306,9 +306,7 @@ class StartsTable {
         };
         write("oblate", starts.oblate);
         write("parachute", starts.parachute);
-        if (!out.flush()) {
-            throw OutputError(path_, std::make_error_code(std::errc::io_error));
-        }
+        examples::append(path_, out.str());
     }
 
   private:

@@ -124,13 +124,12 @@ class VesicleRun {
     Simulation simulation(Index elements) {
         // What the initial shape lacks a run to a given time would never make up for.
         const double share = run_.transient() ? run_.driver_params().unresolved : 2e-2;
-        const bool spectral = discretization_.judges_itself();
-        Shape shape = spectral && run_.adapts()
+        Shape shape = discretization_.judges_itself() && run_.adapts()
                           ? axistokes::resolved_nodes(discretization_, case_.initial, elements, share)
                           : axistokes::nodes_of(discretization_, case_.initial, elements);
-        std::string fault = restored(shape, spectral);
+        std::string fault = restored(shape);
         for (const Index most = axistokes::most_elements(discretization_);
-             !fault.empty() && run_.adapts() && shape.elements() < most; fault = restored(shape, spectral)) {
+             !fault.empty() && run_.adapts() && shape.elements() < most; fault = restored(shape)) {
             const Index more = std::min(most, shape.elements() + shape.elements() / 2);
             shape = axistokes::nodes_of(discretization_, case_.initial, more);
         }
@@ -147,10 +146,11 @@ class VesicleRun {
     }
 
     /// Gives the initial shape its exact area and volume, where they can be had; why it is none, or an empty text.
-    std::string restored(Shape& shape, bool spectral) const {
+    std::string restored(Shape& shape) const {
         Shape exact = shape;
         const double area = 4 * std::numbers::pi + case_.excess_area;
-        if (spectral && case_.excess_area > 0 && discretization_.restore(exact, area, 4 * std::numbers::pi / 3)) {
+        if (discretization_.judges_itself() && case_.excess_area > 0 &&
+            discretization_.restore(exact, area, 4 * std::numbers::pi / 3)) {
             shape = std::move(exact);
         }
         const double off = discretization_.measures(shape).area / area - 1;

@@ -126,6 +126,15 @@ inline std::vector<Case> read_cases(const std::filesystem::path& file) {
     return cases;
 }
 
+/// On the disk when this returns. Throws OutputError.
+inline void append(const std::filesystem::path& path, const std::string& lines) {
+    std::ofstream out(path, std::ios::app);
+    out << lines << std::flush;
+    if (!out) {
+        throw axistokes::OutputError(path, std::make_error_code(std::errc::io_error));
+    }
+}
+
 /// A CSV file that grows by whole cases. What an interrupted run left of its last case is dropped.
 class CaseTable {
   public:
@@ -170,13 +179,7 @@ class CaseTable {
     bool has(const Case& c) const { return std::find(done_.begin(), done_.end(), key(c)) != done_.end(); }
 
     /// Whole lines; on the disk when this returns.
-    void append(const std::string& lines) {
-        std::ofstream out(path_, std::ios::app);
-        out << lines << std::flush;
-        if (!out) {
-            throw axistokes::OutputError(path_, std::make_error_code(std::errc::io_error));
-        }
-    }
+    void append(const std::string& lines) { examples::append(path_, lines); }
 
   private:
     static std::size_t third_comma(const std::string& line) {

@@ -335,7 +335,6 @@ class Driver {
                 }
                 continue;
             }
-            going = going && !stopped_;
             if (const auto body = needy(); body && !stopped_) {
                 add_elements(*body);
                 going = steps() < last;
@@ -390,10 +389,10 @@ class Driver {
             estimate_from_coarser();
         }
         take();
-        if (steps() > 0 && simulator_->history().back().power_mismatch > S(TheReferee::largest_mismatch)) {
+        if (result_.power_mismatch > S(TheReferee::largest_mismatch)) {
             result_.error_estimate = std::numeric_limits<S>::infinity();
             result_.refinement_failure = "the elements do not carry the last shape: its power mismatch is " +
-                                         detail::text(simulator_->history().back().power_mismatch);
+                                         detail::text(result_.power_mismatch);
         }
     }
 
@@ -885,21 +884,23 @@ class Driver {
 
     /// Goes on for as long as the accuracy takes, now that the slowest disturbance is known.
     template <class Newton, class Found>
-    void settle(Found state, const std::vector<Measures<S>>& measures, typename Newton::Params params, const S& error) {
-        if (const S rest = residual_error(state); rest > params_.eps / 2) {
+    void settle(const Found& state, const std::vector<Measures<S>>& measures, typename Newton::Params params,
+                const S& error) {
+        S rest = residual_error(state);
+        if (rest > params_.eps / 2) {
             params.tolerance =
                 std::max<S>(state.residual * params_.eps / (4 * rest), S(64 * std::numeric_limits<S>::epsilon()));
             try {
                 auto closer = Newton(simulator_->scene(), params).solve(state.bodies, measures);
-                require_true(closer.bodies, closer.instants);
                 result_.newton_iterations += closer.iterations;
                 result_.newton_evaluations += closer.evaluations;
-                state = std::move(closer);
+                adopt(closer, error);
+                rest = residual_error(closer);
             } catch (const SimulationFailure& failure) {
                 result_.refinement_failure = failure.what();
             }
         }
-        adopt(state, error + residual_error(state));
+        result_.error_estimate = error + rest;
     }
 
     /// Of Newton's method: the Jacobian of several bodies costs more.
@@ -1040,13 +1041,13 @@ class Driver {
 
     template <class Found>
     void adopt(const Found& state, const S& error) {
+        result_.power_mismatch = require_true(state.bodies, state.instants);
         result_.bodies = state.bodies;
         const S along = simulator_->configuration().position - state.bodies.front().position;
         for (auto& body : result_.bodies) {
             body.position += along;
         }
         result_.instants = state.instants;
-        result_.power_mismatch = require_true(state.bodies, state.instants);
         result_.velocity = state.instants.front().velocity;
         result_.residual = state.residual;
         result_.stationary = true;
