@@ -236,7 +236,8 @@ TEST_CASE("a failing step says why and leaves the last good state", "[simulator]
     }
     SECTION("automatic step") {
         Params params;
-        params.first_time_step = params.smallest_time_step = 0.5;
+        params.first_time_step = 0.5;
+        params.smallest_time_step = 0.5;
         Simulator<UnboundedPoiseuille<double>> simulator(prolate(0.6, 32), UnboundedPoiseuille<double>(50.0), params);
         const Meridian<double> start = simulator.configuration().shape;
         const std::string message = failure([&] { simulator.run(); });
@@ -249,6 +250,63 @@ TEST_CASE("a failing step says why and leaves the last good state", "[simulator]
 TEST_CASE("a step without bound is a failure, not a hang", "[simulator]") {
     Simulator<Quiescent<double>> simulator(prolate(0.6, 16), Quiescent<double>{}, with_step(1e300, 10));
     CHECK(mentions(failure([&] { simulator.step(); }), "time step 1e+300", "is too large", "singular or not finite"));
+}
+
+TEST_CASE("the smallest step is one of the scene's time scale", "[simulator]") {
+    // 1e9 times faster than its membrane relaxes.
+    Params params;
+    params.most_steps = 3;
+    Simulator<Gravity<double>> simulator(prolate(0.6, 16), Gravity<double>(1e11), params);
+    CHECK_NOTHROW(simulator.run());
+    CHECK(simulator.time() > 0);
+    CHECK(simulator.time() < 1e-9);
+}
+
+namespace {
+
+/// A long step first, then short ones.
+class Creep {
+  public:
+    explicit Creep(const axistokes::StepControlParams<double>&) {}
+    double step() const { return dt_; }
+    bool fixed() const { return false; }
+    void judge(const axistokes::StepReport<double>&) const {}
+    bool shorten(double) { return false; }
+    void accept(const axistokes::StepReport<double>&, double, bool) { dt_ = 1e-9; }
+
+  private:
+    double dt_ = 1e-3;
+};
+
+}  // namespace
+
+TEST_CASE("steps that come to no end are a failure", "[simulator]") {
+    using Creeping = axistokes::Simulator<axistokes::FreeSpaceKernel<double>, axistokes::LinearElements<double>,
+                                          axistokes::Vesicle<double>, Gravity<double>, SemiImplicitEuler,
+                                          axistokes::DenseLU<double>, axistokes::NoWall, Creep>;
+    Creeping simulator(prolate(0.6, 16), Gravity<double>(1.0));
+    CHECK(mentions(failure([&] { simulator.run(); }), "step 502 at time", "the last 500 steps began at time 0.001",
+                   "there is no end"));
+    CHECK(simulator.history().size() == 501);
+    // More elements are another matter.
+    simulator.refine(20);
+    CHECK_NOTHROW(simulator.step());
+}
+
+TEST_CASE("an evaluation that is stopped leaves the state as it was", "[simulator]") {
+    int left = 5;
+    Params params;
+    params.proceed = [&] { return left-- > 0; };
+    Simulator<Gravity<double>> simulator(prolate(0.6, 16), Gravity<double>(1.0), params);
+    CHECK_THROWS_AS(simulator.run(), axistokes::SimulationStopped);
+    const auto steps = simulator.history().size();
+    CHECK(steps > 0);
+    const Meridian<double> shape = simulator.configuration().shape;
+    CHECK_THROWS_AS(simulator.step(), axistokes::SimulationStopped);
+    CHECK(simulator.history().size() == steps);
+    CHECK(equal(simulator.configuration().shape, shape));
+    left = 1000;
+    CHECK_NOTHROW(simulator.step());
 }
 
 TEST_CASE("an automatic step is cut down until it works", "[simulator]") {

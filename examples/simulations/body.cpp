@@ -38,6 +38,7 @@ int run_body(const BodyCase& given) {
         axistokes::create_output_directory(c.run.directory);
     }
     const auto begin = std::chrono::steady_clock::now();
+    const InterruptGuard guard;
     const AnyDiscretization discretization = AnyDiscretization::of(c.run.method.kind(), c.tolerance);
     const auto simulation = [&](Index elements) {
         return Simulation(Scene(kernel_for(c.surroundings, c.tolerance), discretization, Law(RigidBody()), c.drive,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Follows bodies in line and writes what came of them.
 #include "../support/line_case.hpp"
-#include "../support/progress.hpp"
 #include "../support/results.hpp"
 
 #include <chrono>
@@ -88,8 +87,7 @@ class LineRun {
         if (case_.dragged) {
             sphere.velocity = 1;
         }
-        auto params = run_.params();
-        params.proceed = [] { return !InterruptGuard::interrupted(); };
+        const auto params = run_.params();
         Simulation simulation(Scene(kernel_for(case_.surroundings, run_.method), discretization_,
                                     case_.spheres ? Law(sphere) : Law(Vesicle()), case_.drive, Solver(), AnyWall()),
                               run_.method.steps(params.step_tolerance), shapes, params);

@@ -154,6 +154,8 @@ class PassageRun {
             } catch (const axistokes::OutputError& error) {
                 failure_ = error.what();
                 unrecorded_ = std::current_exception();
+            } catch (const axistokes::SimulationStopped&) {
+                // Not even the first instant is known.
             }
         }
         keep_last();
@@ -245,6 +247,8 @@ class PassageRun {
             instant = now().instant();
         } catch (const axistokes::SimulationFailure& error) {
             failure_ = failure_.empty() ? error.what() : failure_;
+        } catch (const axistokes::SimulationStopped&) {
+            // Then not this one either.
         }
         keep_frame(instant);
         shape_ = last_shape_columns(now().configuration(), instant ? &*instant : nullptr);

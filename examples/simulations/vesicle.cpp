@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs a vesicle to its end, whatever that is: command line in, progress and files out; the rest is the library's
 // Driver.
-#include "../support/progress.hpp"
 #include "../support/results.hpp"
 #include "../support/thin_film.hpp"
 #include "../support/vesicle_case.hpp"
@@ -36,7 +35,6 @@ class VesicleRun {
           tolerance_(tolerance_for(case_, run_)),
           discretization_(AnyDiscretization::of(run_.method.kind(), tolerance_)),
           frames_(run_.frame_times) {
-        params_.proceed = [] { return !InterruptGuard::interrupted(); };
         // With as many elements as that takes Newton's method does not get below round-off.
         axistokes::detail::require(!(run_.method.kind() == DiscretizationKind::adaptive && run_.adapts() &&
                                      !run_.transient() && run_.driver_params().eps < 1e-8),

@@ -4,6 +4,7 @@
 
 #include "checkpoints.hpp"
 #include "method.hpp"
+#include "progress.hpp"
 #include <axistokes/accuracy.hpp>
 #include <axistokes/accuracy/driver_params.hpp>
 #include <axistokes/geometry/shapes.hpp>
@@ -108,6 +109,7 @@ struct RunOptions {
         params.landing_times = frame_times;
         params.most_steps = steps.value_or(params.most_steps);
         params.referee = !method.no_referee;
+        params.proceed = [] { return !InterruptGuard::interrupted(); };
         return params;
     }
 };

@@ -76,9 +76,9 @@ class SimulationFailure : public std::runtime_error {
 };
 
 /// A computation that was asked to stop: nothing is wrong with it.
-class SimulationStopped : public SimulationFailure {
+class SimulationStopped : public std::runtime_error {
   public:
-    using SimulationFailure::SimulationFailure;
+    using std::runtime_error::runtime_error;
 };
 
 namespace detail {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -175,6 +176,11 @@ class Scene {
 
     bool deforms(std::size_t body) const { return !detail::is_rigid(law(body)); }
 
+    /// Asked before every evaluation, if there is one: false ends it, and whatever it is part of, with
+    /// SimulationStopped.
+    void proceed_while(std::function<bool()> proceed) { proceed_ = std::move(proceed); }
+    const std::function<bool()>& proceed() const { return proceed_; }
+
     /// A body's share of what an evaluation needs.
     struct FrozenBody {
         Surface surface;
@@ -198,8 +204,11 @@ class Scene {
         Instants instants;
     };
 
-    /// Throws SimulationFailure when nothing can be computed on the state.
+    /// Throws SimulationFailure when nothing can be computed on the state, and SimulationStopped.
     Frozen freeze(const State& state) {
+        if (proceed_ && !proceed_()) {
+            throw SimulationStopped("stopped");
+        }
         try {
             return frozen(state);
         } catch (const InvalidArgument& error) {
@@ -639,6 +648,7 @@ class Scene {
     Solver solver_;
     Solver explicit_solver_;
     Wall wall_;
+    std::function<bool()> proceed_;
 };
 
 template <class Kernel, class Discretization, class Law, class Flow, class Solver, class Wall = NoWall>

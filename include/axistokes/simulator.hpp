@@ -43,7 +43,7 @@ struct SimulationParams : StepControlParams<S> {
     std::vector<S> landing_times{};
     /// Whether each step's numbers are judged (Referee): one that cannot be true is a failure.
     bool referee = true;
-    /// Asked before every attempt to step, if there is one; false ends it with SimulationStopped.
+    /// Of the scene (Scene::proceed_while): false ends a step, leaving the state as it was, with SimulationStopped.
     std::function<bool()> proceed{};
 };
 
@@ -86,8 +86,14 @@ class Simulator {
     /// a shape is not a valid meridian, does not fit between the walls, or meets another one, or a parameter is out of
     /// range.
     Simulator(SceneType scene, Integrator integrator, const std::vector<Meridian<Scalar>>& shapes, Params params = {})
-        : params_(params), scene_(std::move(scene)), integrator_(std::move(integrator)), control_(params) {
-        detail::validate(params);
+        : params_(completed(std::move(params), scene)),
+          scene_(std::move(scene)),
+          integrator_(std::move(integrator)),
+          control_(params_) {
+        detail::validate(params_);
+        if (params_.proceed) {
+            scene_.proceed_while(params_.proceed);
+        }
         detail::require(!shapes.empty(), "number of bodies", shapes.size(), "at least 1");
         detail::require(scene_.laws().size() == 1 || scene_.laws().size() == shapes.size(), "number of laws",
                         scene_.laws().size(), "1, or that of the bodies");
@@ -198,6 +204,7 @@ class Simulator {
         motion_.resize(0);
         starts_ = true;
         refused_ = 0;
+        creeping_since_ = steps();
         films_ = scene_.films(moment_.bodies);
     }
 
@@ -261,7 +268,16 @@ class Simulator {
     };
     static constexpr int good_steps = 10;  // that outweigh one
 
+    /// So many steps that bring less than this share of the time so far, and no rest either, come to no end.
+    static constexpr Index creeping_steps = 500;
+    static Scalar least_progress() { return Scalar(1e-3); }
+
     Index steps() const { return static_cast<Index>(histories_.front().size()); }
+
+    static Params completed(Params params, const SceneType& scene) {
+        params.smallest_time_step = detail::smallest_step(params, scene.velocity_scale());
+        return params;
+    }
 
     bool deforms() const {
         bool any = false;
@@ -278,6 +294,7 @@ class Simulator {
 
     /// The step as far as it is not in the state afterwards: what was planned, tried in vain and reported.
     void advance(RecordedStep<Scalar>& made) {
+        require_progress();
         Scalar planned = control_.step();
         Scalar dt = planned;
         if (const auto landing = next_landing(); !control_.fixed() && landing) {
@@ -289,10 +306,6 @@ class Simulator {
             fail(failure.what());
         }
         for (;;) {
-            if (params_.proceed && !params_.proceed()) {
-                throw SimulationStopped("step " + std::to_string(steps() + 1) + " at time " + detail::text(time_) +
-                                        ": stopped");
-            }
             try {
                 Attempt next = attempt(dt);
                 made.planned = planned;
@@ -315,10 +328,29 @@ class Simulator {
                 dt = planned = dt * Scalar(rejection ? rejection->factor() : 0.5);
                 made.shortened.push_back(dt);
                 if (!control_.shorten(dt)) {
-                    fail("the time step fell below " + detail::text(params_.smallest_time_step) + ": " +
+                    fail("the time step fell below " + detail::text(*params_.smallest_time_step) + ": " +
                          failure.what());
                 }
             }
+        }
+    }
+
+    /// Automatic steps may follow something ever faster, or be at the limit of stability of a mode that the elements do
+    /// not carry.
+    void require_progress() const {
+        if (control_.fixed() || steps() <= creeping_since_ + creeping_steps) {
+            return;
+        }
+        const auto first = static_cast<std::size_t>(steps() - 1 - creeping_steps);
+        Scalar rest = 0;
+        for (const std::vector<Record>& history : histories_) {
+            rest = std::max<Scalar>(rest, history[first].residual);
+        }
+        const Scalar& then = histories_.front()[first].time;
+        if (time_ - then < least_progress() * time_ && residual() > rest / 2) {
+            fail("the last " + std::to_string(creeping_steps) + " steps began at time " + detail::text(then) +
+                 ": they are so short, the last one " + detail::text(histories_.front().back().dt) +
+                 ", that there is no end; the elements may be too few");
         }
     }
 
@@ -328,8 +360,6 @@ class Simulator {
         made.begin = time_;
         try {
             advance(made);
-        } catch (const SimulationStopped&) {
-            throw;
         } catch (const SimulationFailure& failure) {
             made.failure = failure.what();
             made.wall = scene_.memory();
@@ -605,9 +635,10 @@ class Simulator {
     std::vector<Measures<Scalar>> measures_;  // initial
     std::vector<Conserved<Scalar>> conserved_;
     Films<Scalar> films_;
-    Vector<Scalar> motion_;  // of the last step
-    bool starts_ = true;     // whether the elements have not yet carried a shape
-    int refused_ = 0;        // good_steps for every attempt that was untrue, less the steps since
+    Vector<Scalar> motion_;     // of the last step
+    bool starts_ = true;        // whether the elements have not yet carried a shape
+    int refused_ = 0;           // good_steps for every attempt that was untrue, less the steps since
+    Index creeping_since_ = 0;  // steps that may count as creeping
     Scalar time_{};
     std::shared_ptr<StepRecorder<Scalar>> recorder_;
 };

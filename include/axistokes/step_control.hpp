@@ -61,7 +61,8 @@ struct StepControlParams {
     std::optional<S> time_step;
     S first_time_step = S(1e-3);
     S largest_time_step = S(1);
-    S smallest_time_step = S(1e-9);
+    /// If not given 1e-9, of a Simulator over the larger of 1 and the scene's velocity scale.
+    std::optional<S> smallest_time_step;
     /// Error allowed in a step, in R0, for integrators that estimate it; never more than a tenth of the motion.
     S step_tolerance = S(1e-4);
     /// Largest normal displacement in a step, in R0, for the other ones.
@@ -76,13 +77,18 @@ struct StepControlParams {
 namespace detail {
 
 template <class S>
+S smallest_step(const StepControlParams<S>& p, const S& velocity_scale = S(1)) {
+    return p.smallest_time_step.value_or(S(1e-9) / std::max(S(1), velocity_scale));
+}
+
+template <class S>
 void validate_steps(const StepControlParams<S>& p) {
     using std::isfinite;
     if (p.time_step) {
         require(*p.time_step > S(0) && isfinite(*p.time_step), "time step", *p.time_step, "> 0 and finite");
     }
-    require(p.smallest_time_step > S(0), "smallest time step", p.smallest_time_step, "> 0");
-    require(p.first_time_step >= p.smallest_time_step, "first time step", p.first_time_step,
+    require(smallest_step(p) > S(0), "smallest time step", smallest_step(p), "> 0");
+    require(p.first_time_step >= smallest_step(p), "first time step", p.first_time_step,
             "at least the smallest time step");
     require(p.largest_time_step >= p.first_time_step && isfinite(p.largest_time_step), "largest time step",
             p.largest_time_step, "at least the first time step, and finite");
@@ -130,7 +136,7 @@ class StepControl {
 
     bool shorten(const S& dt) {
         dt_ = dt;
-        return !fixed() && !(dt < params_.smallest_time_step);
+        return !fixed() && !(dt < detail::smallest_step(params_));
     }
 
     void accept(const Report& report, const S& planned, bool retried) {

@@ -210,8 +210,8 @@ void steps(Bytes& in) {
         }
     };
     for (double* value :
-         {&params.first_time_step, &params.largest_time_step, &params.smallest_time_step, &params.step_tolerance,
-          &params.largest_displacement, &params.largest_strain, &params.growth}) {
+         {&params.first_time_step, &params.largest_time_step, &params.smallest_time_step.emplace(1e-9),
+          &params.step_tolerance, &params.largest_displacement, &params.largest_strain, &params.growth}) {
         change(*value);
     }
     if (in.flag()) {

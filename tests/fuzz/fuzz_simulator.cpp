@@ -28,7 +28,7 @@ SimulationParams<double> some_params(Bytes& in) {
             value = in.number();
         }
     };
-    for (double* value : {&params.first_time_step, &params.largest_time_step, &params.smallest_time_step,
+    for (double* value : {&params.first_time_step, &params.largest_time_step, &params.smallest_time_step.emplace(1e-9),
                           &params.step_tolerance, &params.largest_displacement, &params.largest_strain, &params.growth,
                           &params.tolerance, &params.longest_time}) {
         change(*value);

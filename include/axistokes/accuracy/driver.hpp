@@ -95,7 +95,7 @@ class Driver {
     const Result& result() const { return result_; }
 
     /// Throws SimulationFailure where the simulation cannot go on, and OutputError where a step cannot be recorded;
-    /// result() then is that of the last good state.
+    /// result() then is that of the last good state. A stop is no failure: result().interrupted.
     const Result& run() {
         try {
             if (!moves()) {
@@ -105,6 +105,9 @@ class Driver {
             } else {
                 find_stationary();
             }
+        } catch (const SimulationStopped&) {
+            stopped_ = true;
+            take();
         } catch (...) {
             take();
             throw;
@@ -327,8 +330,6 @@ class Driver {
             try {
                 resolve_films();
                 simulator_->run(observe);
-            } catch (const SimulationStopped&) {
-                stopped_ = true;
             } catch (const SimulationFailure&) {
                 if (!adapts() || rescues-- == 0 || !rescue()) {
                     throw;
@@ -667,8 +668,6 @@ class Driver {
             if (!stopped_) {
                 result_.error_estimate = S(largest_error(measured(coarse), fine)) + time_error() + film_error();
             }
-        } catch (const SimulationStopped&) {
-            stopped_ = true;
         } catch (const SimulationFailure&) {
             // Without a coarser result there is no telling.
         }
@@ -708,6 +707,8 @@ class Driver {
             result_.velocity = result_.instants.front().velocity;
         } catch (const SimulationFailure&) {
             // Reported already: the run cannot have ended well on such a shape.
+        } catch (const SimulationStopped&) {
+            // Neither does it go on with this.
         }
         result_.stationary = simulator_->stationary();
         result_.largest_power_mismatch = 0;

@@ -25,8 +25,10 @@ Part loosened(const Part& part, const S& tolerance) {
 
 template <class SceneType, class S>
 SceneType loosened_scene(const SceneType& scene, const S& tolerance) {
-    return SceneType(loosened(scene.kernel(), tolerance), loosened(scene.discretization(), tolerance), scene.laws(),
-                     scene.flow(), scene.solver(), scene.wall());
+    SceneType loose(loosened(scene.kernel(), tolerance), loosened(scene.discretization(), tolerance), scene.laws(),
+                    scene.flow(), scene.solver(), scene.wall());
+    loose.proceed_while(scene.proceed());
+    return loose;
 }
 
 /// For differences of integrals that are correct to a few digits: the error made is about the step itself.

@@ -127,8 +127,6 @@ requires(SceneType::deformable) class StationarySolver {
                 }
                 iterate(scene_, start, conserved, params_.tolerance, linearisation, state);
                 return state;
-            } catch (const SimulationStopped&) {
-                throw;
             } catch (const SimulationFailure&) {
                 // Half of the nodes may not resolve the shape.
                 linearisation = {};
