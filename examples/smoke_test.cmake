@@ -1,12 +1,14 @@
 # cmake -DEXAMPLE=<executable> "-DARGUMENTS=a|b" -DDIRECTORY=<scratch> -DEXIT=<code> "-DKEYS=a|b" "-DMESSAGE=<regex>"
-#       -P smoke_test.cmake
+#       "-DTRAPS=<library>" -P smoke_test.cmake
 #
-# Runs an example: its exit code, the keys of its summary.json, the files beside it, and what it says on standard error.
+# Runs an example, with a library that is loaded first if one is given: its exit code, the keys of its summary.json, the
+# files beside it, and what it says on standard error.
 cmake_minimum_required(VERSION 3.21)
 
 string(REPLACE "|" ";" ARGUMENTS "${ARGUMENTS}")
 string(REPLACE "|" ";" KEYS "${KEYS}")
 file(REMOVE_RECURSE ${DIRECTORY})
+set(ENV{LD_PRELOAD} "${TRAPS}")
 execute_process(COMMAND ${EXAMPLE} ${ARGUMENTS} --out ${DIRECTORY} RESULT_VARIABLE status OUTPUT_VARIABLE output
                 ERROR_VARIABLE errors)
 message("${output}${errors}")

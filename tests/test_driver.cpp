@@ -353,6 +353,6 @@ TEST_CASE("drivers: Newton's method stops when the observer says so") {
     const auto& result = driver.run();
     CHECK(result.interrupted);
     CHECK(!result.stationary);
-    CHECK_THAT(result.newton_failure, Catch::Contains("stopped"));
+    CHECK(result.newton_failure.empty());
     CHECK(result.instant() != nullptr);
 }

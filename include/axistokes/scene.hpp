@@ -151,8 +151,8 @@ class Scene {
         : Scene(std::move(kernel), std::move(discretization), std::vector<Law>{std::move(law)}, std::move(flow),
                 std::move(solver), std::move(wall)) {}
 
-    /// A law for each body. Throws InvalidArgument if there is none, or if the undisturbed flow does not vanish on the
-    /// wall: then it is that of another one.
+    /// A law for each body. Throws InvalidArgument if there is none, if the undisturbed flow does not vanish on the
+    /// wall (then it is that of another one), or is so fast that its power overflows.
     template <std::same_as<std::vector<Law>> Laws>
     Scene(Kernel kernel, Discretization discretization, Laws laws, Flow flow, Solver solver, Wall wall = {})
         : kernel_(std::move(kernel)),
@@ -163,6 +163,7 @@ class Scene {
           explicit_solver_(std::move(solver)),
           wall_(std::move(wall)) {
         detail::require(!laws_.empty(), "number of laws", laws_.size(), "at least 1");
+        require_finite_power();
         require_rest_at_the_wall();
     }
 
@@ -421,6 +422,13 @@ class Scene {
     }
 
   private:
+    void require_finite_power() const {
+        using std::sqrt;
+        const Scalar most = sqrt(std::numeric_limits<Scalar>::max()) / 10000;
+        detail::require(velocity_scale() < most, "velocity scale of flow and wall", velocity_scale(),
+                        ("less than " + detail::text(most)).c_str());
+    }
+
     /// On the wall of a tube or channel, about the middle of the axis.
     void require_rest_at_the_wall() const {
         using std::abs;
@@ -479,6 +487,7 @@ class Scene {
     Scalar origin(const State& state) const { return Kernel::laboratory_frame ? Scalar(0) : state.front().position; }
 
     Frozen frozen(const State& state) {
+        using std::sqrt;
         Frozen frozen;
         std::vector<Meridian<Scalar>> local;
         std::vector<Meridian<Scalar>> places;
@@ -518,10 +527,9 @@ class Scene {
             FrozenBody& body = frozen.bodies[b];
             body.shear_rate = shear_rate(state[b].shape, frozen.background, begin);
             const Index n = state[b].shape.nodes();
-            const Vector<Scalar> speed =
+            body.undisturbed_speed = sqrt(
                 (frozen.background.segment(begin, n).cwiseAbs2() + frozen.background.segment(begin + n, n).cwiseAbs2())
-                    .cwiseSqrt();
-            body.undisturbed_speed = speed.maxCoeff();
+                    .maxCoeff());
             bodies.push_back({law(b), body.surface, body.load, state[b].tension, {}});
             begin += 2 * n;
         }
@@ -602,8 +610,11 @@ class Scene {
                 film.where = curve.z[i] + position;
             }
         }
+        if (!(film.min < std::numeric_limits<Scalar>::infinity())) {
+            return film;
+        }
         const Scalar pi = detail::pi_value<Scalar>();
-        Scalar least = std::numeric_limits<Scalar>::max();
+        Scalar least = std::numeric_limits<Scalar>::infinity();
         const Scalar wide = curve.r.maxCoeff() * Scalar(0.9);
         Scalar covered = 0;
         Scalar sum = 0;

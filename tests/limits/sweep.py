@@ -274,6 +274,7 @@ class Runner:
         limit = math.ceil(self.seconds)
 
         def confine():
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell's background jobs ignore it
             resource.setrlimit(resource.RLIMIT_CPU, (limit + 10, limit + 12))
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -326,7 +327,7 @@ class Runner:
             row["outcome"], row["message"] = "CRASH", "no summary.json"
         else:
             row["outcome"] = ending(case.options, summary)
-            if summary["error_met"]:
+            if summary.get("error_met"):
                 good = summary
                 wrong = referee.complaints(case.program, case.options, summary, directory / "out")
                 if wrong:

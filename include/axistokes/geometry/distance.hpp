@@ -129,11 +129,10 @@ ClosestApproach<S> closest_approach(const Meridian<S>& a, const Meridian<S>& b) 
     result.distance = sqrt(least);
     const S first_speed = detail::dot(first.slope_at(u), first.slope_at(u));
     const S second_speed = detail::dot(second.slope_at(v), second.slope_at(v));
-    // h'' is the sum of the curvatures towards each other.
-    const S bend =
-        (detail::dot(d, second.bend) / second_speed - detail::dot(d, first.bend) / first_speed) / result.distance;
+    // h'' h: h'' is the sum of the curvatures towards each other.
+    const S bend = detail::dot(d, second.bend) / second_speed - detail::dot(d, first.bend) / first_speed;
     if (bend > S(0)) {
-        result.length = sqrt(2 * result.distance / bend);
+        result.length = result.distance * sqrt(2 / bend);
     }
     result.first_spacing = sqrt(first_speed);
     result.second_spacing = sqrt(second_speed);
