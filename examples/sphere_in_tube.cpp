@@ -67,7 +67,9 @@ int main(int argc, char** argv) {
         };
         examples::BodyCase c{
             run,
-            [](Index elements) { return sphere<double>(elements); },
+            [&](Index elements) {
+                return run.method.high_order() ? smooth_spheroid<double>(1, elements) : sphere<double>(elements);
+            },
             wall.method == "filon"    ? 16
             : run.method.high_order() ? 32
                                       : 64,

@@ -82,7 +82,11 @@ int main(int argc, char** argv) {
             return keys;
         };
         examples::BodyCase c{run,
-                             [&](Index elements) { return axistokes::spheroid_of_aspect<double>(aspect, elements); },
+                             [&](Index elements) {
+                                 return run.method.high_order()
+                                            ? axistokes::smooth_spheroid<double>(aspect, elements)
+                                            : axistokes::spheroid_of_aspect<double>(aspect, elements);
+                             },
                              run.method.high_order() ? 32 : 64,
                              accuracy                  ? accuracy->quadrature
                              : run.method.high_order() ? 1e-10

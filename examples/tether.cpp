@@ -33,6 +33,11 @@ nlohmann::ordered_json describe(const examples::VesicleEnd& end) {
             keys["tether_radius_of_tension"] = 1 / std::sqrt(2 * end.tension[*neck]);
             keys["tether_tension"] = end.tension[*neck];
         }
+        const axistokes::Index pearls = examples::pearls_above(shape, *neck, 1.2);
+        keys["pearls"] = pearls;
+        if (end.tension.size() > 0 && pearls == 0) {
+            keys["tension_over_bending"] = examples::tension_over_bending(shape, end.tension, *neck);
+        }
     }
     if (const auto time = plateau(end, 0.01)) {
         keys["plateau_time"] = *time;

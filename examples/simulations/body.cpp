@@ -43,8 +43,7 @@ int run_body(const BodyCase& given) {
     const auto simulation = [&](Index elements) {
         return Simulation(Scene(kernel_for(c.surroundings, c.tolerance), discretization, Law(RigidBody()), c.drive,
                                 Solver(), wall_for(c.surroundings)),
-                          axistokes::ExtrapolatedEulerOfOrder(1),
-                          axistokes::nodes_of(discretization, c.shape, elements), c.run.params());
+                          axistokes::ExtrapolatedEulerOfOrder(1), c.shape(elements), c.run.params());
     };
     auto driver_params = c.run.driver_params();
     if (!c.run.method.preset) {

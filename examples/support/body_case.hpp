@@ -19,7 +19,7 @@ struct BodyMotion {
 
 struct BodyCase {
     RunOptions run;
-    std::function<axistokes::Meridian<double>(axistokes::Index)> shape;  // of so many elements
+    std::function<axistokes::Meridian<double>(axistokes::Index)> shape;  // of so many elements, where they belong
     axistokes::Index elements;                                           // unless they follow from the accuracy
     double tolerance;                                                    // of integrals and of the tube kernel
     Drive drive;

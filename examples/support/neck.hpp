@@ -24,6 +24,19 @@ inline std::optional<axistokes::Index> tube_neck(const axistokes::Meridian<doubl
     return std::nullopt;
 }
 
+/// Tension times radius squared, in units of kappa, where it is largest on what is a tube, above node `from`: where the
+/// radius changes by less than a twentieth of the distance along the axis. A tube is unstable above 3/2.
+inline double tension_over_bending(const axistokes::Meridian<double>& shape, const axistokes::Vector<double>& tension,
+                                   axistokes::Index from) {
+    double largest = 0;
+    for (axistokes::Index i = from; i + 1 < shape.nodes(); ++i) {
+        if (20 * std::abs(shape.r[i + 1] - shape.r[i - 1]) < std::abs(shape.z[i + 1] - shape.z[i - 1])) {
+            largest = std::max(largest, tension[i] * shape.r[i] * shape.r[i]);
+        }
+    }
+    return largest;
+}
+
 /// How often, from node `from` on, the radius rises and falls again by a factor, not counting the end of the tube.
 inline axistokes::Index pearls_above(const axistokes::Meridian<double>& shape, axistokes::Index from, double factor) {
     axistokes::Index count = 0;

@@ -70,6 +70,7 @@ struct RunOptions {
             driver.unresolved = accuracy->unresolved;
             driver.newton_tolerance = accuracy->residual;
             driver.to_round_off = true;
+            driver.integrals = accuracy->quadrature;
             if (method.kind() == DiscretizationKind::adaptive) {
                 // Differences over close nodes leave more round-off than series.
                 driver.newton_tolerance = std::max(driver.newton_tolerance, 1e-9);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../geometry/distance.hpp"
+#include "../geometry/shapes.hpp"
 #include "../simulator.hpp"
 #include "../stationary/stationary_solver.hpp"
 #include "driver_params.hpp"
@@ -475,10 +476,14 @@ class Driver {
         return verdict.power_mismatch;
     }
 
-    /// Two results may agree by chance where a gap is hardly resolved.
+    /// Two results may agree by chance, for instance where a gap is hardly resolved.
     void judge_rigid(const std::pair<Vector<S>, Vector<S>>& coarse, const std::pair<Vector<S>, Vector<S>>& fine,
                      Index coarse_elements) {
-        result_.error_estimate = rigid_error(coarse, fine, coarse_elements);
+        result_.error_estimate = rigid_error(coarse, fine, coarse_elements) + params_.integrals / 10;
+        if constexpr (can_judge) {
+            // Or before either of them carries the shape.
+            result_.error_estimate = std::max(result_.error_estimate, unresolved_error(simulator_->state()));
+        }
         if (has_films()) {
             film_error_ = film_needs(double(params_.eps)).error;
             result_.error_estimate = std::max(result_.error_estimate, film_error());
@@ -549,7 +554,13 @@ class Driver {
 
     void estimate_from_modes() {
         if constexpr (can_judge) {
-            result_.error_estimate = unresolved_error(simulator_->state()) + time_error() + film_error();
+            const State state = simulator_->state();
+            result_.error_estimate = unresolved_error(state) + time_error() + other_errors(state);
+            try {
+                result_.error_estimate += resultant_error(state, simulator_->moment().instants);
+            } catch (const SimulationFailure&) {
+                result_.error_estimate = std::numeric_limits<S>::infinity();
+            }
             if (any_rigid()) {
                 result_.error_estimate += finer_difference();
             }
@@ -666,7 +677,8 @@ class Driver {
                 coarse.run(observe);
             } while (!coarse.finished() && !stopped_ && left() > 0 && !rest_ends());
             if (!stopped_) {
-                result_.error_estimate = S(largest_error(measured(coarse), fine)) + time_error() + film_error();
+                result_.error_estimate =
+                    S(largest_error(measured(coarse), fine)) + time_error() + other_errors(simulator_->state());
             }
         } catch (const SimulationFailure&) {
             // Without a coarser result there is no telling.
@@ -691,7 +703,7 @@ class Driver {
             const auto fine = measured(*simulator_);
             error = largest_error(coarse, fine);
             coarse = fine;
-            result_.error_estimate = S(error) + time_error() + film_error();
+            result_.error_estimate = S(error) + time_error() + other_errors(simulator_->state());
             if (error <= double(params_.eps) || elements() >= most(0)) {
                 break;
             }
@@ -830,7 +842,7 @@ class Driver {
                 const FilmNeeds needs = film_needs(simulator_->scene().films(state.bodies), state.bodies,
                                                    double(params_.eps) / 2, [](std::size_t) { return 1.0; });
                 film_error_ = needs.error;
-                error += film_error();
+                error += other_errors(state.bodies) + resultant_error(state.bodies, state.instants);
                 adopt(state, error);
                 const bool last = error <= params_.eps || !adapts() || stopped_ || nothing_to_add(state.bodies);
                 // Growth rates need no more than a recognisable shape, and cost as much as many iterations. Those of
@@ -939,6 +951,60 @@ class Driver {
         return share / S(Accuracy<S>::unresolved_to_error);
     }
 
+    /// Those that the resolution of the shape does not show.
+    S other_errors(const State& bodies) const { return film_error() + area_error(bodies) + params_.integrals / 10; }
+
+    /// A membrane's own forces have no resultant. That of the discrete ones moves the body like a weight: as fast as a
+    /// sphere of its volume in an unbounded fluid, at most.
+    template <class Instants>
+    S resultant_error(const State& bodies, const Instants& instants) const {
+        using std::abs;
+        using std::cbrt;
+        const S pi = detail::pi_value<S>();
+        S error = 0;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const auto& instant = instants[b];
+            if (!simulator_->scene().deforms(b) || !(simulator_->scene().velocity_scale() > S(0))) {
+                continue;
+            }
+            Vector<S> force = instant.solution.elastic;
+            if (instant.solution.tension.size() > 0) {
+                force += detail::applied(instant.surface.tension_force, instant.solution.tension);
+            }
+            const S resultant = instant.surface.weight.dot(force.tail(instant.surface.size()));
+            const S radius = cbrt(3 * initial_measures(b).volume / (4 * pi));
+            const S drift = abs(resultant) / (6 * pi * radius);
+            error = std::max<S>(error, drift / std::max(S(abs(instant.velocity)), S(1e-3)));
+        }
+        return error;
+    }
+
+    /// With the excess area D a nearly spherical body is as long as the sphere but for a share e that grows like
+    /// sqrt(D), so that an error dD of the area changes the length by e (sqrt(1 + dD/D) - 1). dD is taken from a sphere
+    /// of as many elements, whose excess area is zero.
+    S area_error(const State& bodies) const {
+        using std::abs;
+        using std::cbrt;
+        using std::sqrt;
+        const S pi = detail::pi_value<S>();
+        const auto excess = [&](const S& area, const S& volume) { return area - cbrt(36 * pi * volume * volume); };
+        S error = 0;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const Measures<S> whole = initial_measures(b);
+            const S wanted = excess(whole.area, whole.volume);
+            if (!simulator_->scene().deforms(b) || !detail::keeps_area(simulator_->scene().law(b)) ||
+                !(wanted > S(0))) {
+                continue;
+            }
+            const S diameter = cbrt(6 * whole.volume / pi);
+            const S deviation = abs(S(length(bodies[b])) / diameter - S(1));
+            const auto of_sphere = discretization().measures(sphere<S>(bodies[b].shape.elements(), diameter / 2));
+            error =
+                std::max<S>(error, deviation * (sqrt(1 + abs(excess(of_sphere.area, of_sphere.volume)) / wanted) - 1));
+        }
+        return error;
+    }
+
     bool nothing_to_add(const State& bodies) const {
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             if (simulator_->scene().deforms(b) && bodies[b].shape.elements() < most_in_newton()) {
@@ -958,7 +1024,8 @@ class Driver {
             } else if (!spectral()) {
                 next = more_elements(now, double(error), double(params_.eps), most());
             } else if constexpr (can_judge) {
-                const auto share = double(discretization().unresolved(bodies[b].shape));
+                const auto share = double(std::max<S>(discretization().unresolved(bodies[b].shape),
+                                                      S(Accuracy<S>::unresolved_to_error) * error));
                 if (bodies.size() == 1 || share > double(params_.unresolved)) {
                     next = std::max(next,
                                     more_elements_of(discretization(), now, share, double(params_.unresolved), most()));

@@ -28,6 +28,8 @@ struct DriverParams {
     /// Residual at which Newton's method has converged; then on to round-off.
     S newton_tolerance = S(1e-9);
     bool to_round_off = false;
+    /// Relative error allowed in the integrals. A tenth of it is what reached the results in trials (docs/accuracy.md).
+    S integrals = S(0);
 };
 
 }  // namespace axistokes

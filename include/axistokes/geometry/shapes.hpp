@@ -120,6 +120,34 @@ Meridian<S> spheroid_of_aspect(const S& aspect, Index elements, const NodeSpacin
     return spheroid<S>(a, aspect * a, elements, spacing);
 }
 
+/// The same on nodes that discretisations of high order carry with few of them: at equidistant s, where t is the
+/// eccentric angle and tan t = sqrt(a/c) tan s. Tractions have branch points where tan t = +-i a/c; nearest to
+/// the real axis these, and those of the map at tan s = +-i sqrt(c/a), lie sqrt(min(a/c, c/a)) away from it in s, not
+/// min(a/c, c/a) as in t.
+template <class S>
+Meridian<S> smooth_spheroid(const S& aspect, Index elements) {
+    using std::cbrt;
+    using std::cos;
+    using std::isfinite;
+    using std::sin;
+    using std::sqrt;
+    detail::require(aspect > S(0) && isfinite(aspect), "aspect ratio", aspect, "> 0 and finite");
+    detail::require_elements(elements);
+    const S a = S(1) / cbrt(aspect);
+    const S stretch = S(1) / sqrt(aspect);
+    Meridian<S> m{Vector<S>(elements + 1), Vector<S>(elements + 1)};
+    for (Index i = 0; i <= elements; ++i) {
+        const S s = detail::pi_value<S>() * S(i) / S(elements);
+        const S x = stretch * sin(s);
+        const S y = cos(s);
+        const S length = sqrt(S(x * x + y * y));
+        m.r[i] = a * x / length;
+        m.z[i] = -aspect * a * y / length;
+    }
+    m.r[0] = m.r[elements] = 0;
+    return m;
+}
+
 /// Aspect ratio (polar over equatorial) of the spheroid of volume 4 pi/3 and area 4 pi + excess_area, excess_area in
 /// [0, 100] R0^2.
 template <class S>
