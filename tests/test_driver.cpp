@@ -356,3 +356,26 @@ TEST_CASE("drivers: Newton's method stops when the observer says so") {
     CHECK(result.newton_failure.empty());
     CHECK(result.instant() != nullptr);
 }
+
+TEST_CASE("drivers: the estimate of a nearly spherical vesicle counts the area that its elements measure") {
+    const auto length_of = [](auto& driver) {
+        const auto& shape = driver.run().configuration().shape;
+        return shape.z[shape.elements()] - shape.z[0];
+    };
+    DriverParams<double> params = accuracy(1e-8, false);
+    for (const double excess_area : {1e-3, 1e-2}) {
+        Driver<Settling<SpectralMeridian<double>, Vesicle<double>>> series(
+            settling<SpectralMeridian<double>>(excess_area, 47.0), params);
+        const double exact = length_of(series);
+        params.elements = 24;
+        Driver<Settling<LinearElements<double>, Vesicle<double>>> linear(
+            settling<LinearElements<double>>(excess_area, 47.0), params);
+        const double error = std::abs(length_of(linear) / exact - 1);
+        const double estimate = linear.result().error_estimate;
+        INFO("excess area " << excess_area << ", error " << error << ", estimate " << estimate);
+        CHECK(error > 1e-5);
+        CHECK(estimate > error / 2);
+        CHECK(estimate < 50 * error);
+        params.elements.reset();
+    }
+}

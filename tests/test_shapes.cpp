@@ -150,3 +150,23 @@ TEST_CASE("shapes refuse bad input by name, value and range", "[shapes]") {
     CHECK(mentions(refusal([] { axistokes::spheroid_of_excess_area(0.5, SpheroidKind::oblate, 7); }),
                    "number of elements", "7", "at least 8"));
 }
+
+TEST_CASE("smooth_spheroid places nodes on the spheroid, evenly in the smoother angle", "[shapes]") {
+    for (const double aspect : {0.01, 0.5, 1.0, 7.0, 100.0}) {
+        INFO("aspect " << aspect);
+        const Index n = 40;
+        const Meridian<double> m = axistokes::smooth_spheroid(aspect, n);
+        const double a = 1 / std::cbrt(aspect);
+        for (Index i = 0; i <= n; ++i) {
+            CHECK(std::hypot(m.r[i] / a, m.z[i] / (aspect * a)) == Approx(1).epsilon(1e-14));
+            const double angle = std::atan2(m.r[i] / a, -m.z[i] / (aspect * a));
+            const double s = std::atan2(std::sqrt(aspect) * std::sin(angle), std::cos(angle));
+            CHECK(s == Approx(axistokes::test::pi * static_cast<double>(i) / n).margin(1e-12));
+        }
+        CHECK(m.r[0] == 0);
+        CHECK(m.r[n] == 0);
+        CHECK(m.z[0] == -m.z[n]);
+    }
+    CHECK(mentions(refusal([] { axistokes::smooth_spheroid(infinity, 32); }), "aspect ratio", "inf", "> 0 and finite"));
+    CHECK(mentions(refusal([] { axistokes::smooth_spheroid(2.0, 1); }), "number of elements", "1", "at least"));
+}

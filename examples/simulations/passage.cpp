@@ -62,7 +62,13 @@ Vector<double> wall_radii(const Channel& profile, const Vector<double>& z) {
 /// Where the vesicle was when: its foremost and rearmost points.
 class Track {
   public:
+    /// Of a run that begins anew, or is looked at again, only the last word counts.
     void add(double time, const Meridian<double>& shape) {
+        while (!time_.empty() && time_.back() >= time) {
+            time_.pop_back();
+            front_.pop_back();
+            rear_.pop_back();
+        }
         time_.push_back(time);
         front_.push_back(largest(shape.z));
         rear_.push_back(-largest(-shape.z));

@@ -42,13 +42,11 @@ double wall_error(const Simulation& simulation, const Driver::Result& result, co
         return 0;
     }
     Surroundings finer = surroundings;
+    // Not a mesh of twice the given length and panels: far from convergence that may change little.
     finer.wall->tolerance /= 10;
-    if (finer.wall->panels) {
-        finer.wall->panels = 2 * *finer.wall->panels;
-    }
-    if (finer.wall->length) {
-        finer.wall->length = 2 * *finer.wall->length;
-    }
+    finer.wall->panels.reset();
+    finer.wall->length.reset();
+    finer.wall->grading = axistokes::WallGrading::automatic;
     const Scene& scene = simulation.scene();
     try {
         Scene other(scene.kernel(), scene.discretization(), scene.laws(), scene.flow(), Solver(), wall_for(finer));

@@ -35,6 +35,11 @@ class VesicleRun {
           tolerance_(tolerance_for(case_, run_)),
           discretization_(AnyDiscretization::of(run_.method.kind(), tolerance_)),
           frames_(run_.frame_times) {
+        // With as many elements as that takes Newton's method does not get below round-off.
+        axistokes::detail::require(!(run_.method.kind() == DiscretizationKind::adaptive && run_.adapts() &&
+                                     !run_.transient() && run_.driver_params().eps < 1e-8),
+                                   "--preset-accuracy", run_.method.preset.value_or(""),
+                                   "fast or balanced with --discretization adaptive, unless --elements is given");
     }
 
     int operator()() {

@@ -27,8 +27,8 @@ struct Ending {
 /// the run. `begin`: when what it took began.
 Ending run_to_the_end(Driver& driver, std::chrono::steady_clock::time_point begin);
 
-/// Relative error of the first body's velocity that a meshed wall leaves, from one of twice the panels and length, or
-/// of a tenth of the tolerance; 0 without such a wall.
+/// Relative error of the first body's velocity that a meshed wall leaves, from the usual one of a tenth of the
+/// tolerance; 0 without such a wall.
 double wall_error(const Simulation& simulation, const Driver::Result& result, const Surroundings& surroundings);
 
 /// The last shape as a table. Without an instant (null: the shape may be the cause of a failure) at least the nodes.

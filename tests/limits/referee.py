@@ -207,7 +207,7 @@ def difference(first, second):
                 continue
             scale = max(abs(a[key]), abs(b[key]))
             off = abs(a[key] - b[key])
-            if key == "velocity" and scale < 1e-9:
+            if key == "velocity" and scale < 1e-7:  # nothing drives it
                 continue
             if off > allowed * scale:
                 stationary = "" if "bodies" in first or not first.get("stationary") else ", stationary"

@@ -425,12 +425,16 @@ class Driver {
         }
         try {
             auto scene = simulator_->scene();
-            return rigid_error(velocity_and_force(simulator_->moment().instants),
-                               velocity_and_force(scene.evaluate(state, S(0))), elements());
+            const S difference = rigid_difference(velocity_and_force(simulator_->moment().instants),
+                                                  velocity_and_force(scene.evaluate(state, S(0))));
+            const S ratio = S(state.front().shape.elements()) / S(elements());
+            return spectral() ? difference : second_order(difference, ratio * ratio / (ratio * ratio - S(1)));
         } catch (const SimulationFailure&) {
             return std::numeric_limits<S>::infinity();
         }
     }
+
+    S error_of_rigid() { return any_rigid() ? finer_difference() : S(0); }
 
     /// Velocity and force of a rigid body. Its shape may be simple and its traction is not: two results tell the error
     /// of the coarser one, or, of second order, that of the finer.
@@ -504,14 +508,26 @@ class Driver {
     }
 
     /// Of velocities; of forces, where nothing drives bodies of given velocities.
-    S rigid_error(const std::pair<Vector<S>, Vector<S>>& coarse, const std::pair<Vector<S>, Vector<S>>& fine,
-                  Index coarse_elements) const {
+    S rigid_difference(const std::pair<Vector<S>, Vector<S>>& coarse,
+                       const std::pair<Vector<S>, Vector<S>>& fine) const {
         const bool driven = simulator_->scene().velocity_scale() > S(0);
         const Vector<S>& a = driven ? coarse.first : coarse.second;
         const Vector<S>& b = driven ? fine.first : fine.second;
-        const S difference = (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+        return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+    }
+
+    /// Of P1 elements: what second order makes of a difference, by the factor given, and no less than what the chords
+    /// of a sphere leave, 4e-3 (pi/N)^2: errors of other signs may hide that.
+    S second_order(const S& difference, const S& factor) const {
+        const S spacing = detail::pi_value<S>() / S(elements());
+        return std::max<S>(difference * factor, S(5e-3) * spacing * spacing);
+    }
+
+    S rigid_error(const std::pair<Vector<S>, Vector<S>>& coarse, const std::pair<Vector<S>, Vector<S>>& fine,
+                  Index coarse_elements) const {
+        const S difference = rigid_difference(coarse, fine);
         const S ratio = S(elements()) / S(coarse_elements);
-        return spectral() ? difference : S(difference / (ratio * ratio - S(1)));
+        return spectral() ? difference : second_order(difference, 1 / (ratio * ratio - S(1)));
     }
 
     /// Of all bodies.
@@ -561,9 +577,7 @@ class Driver {
             } catch (const SimulationFailure&) {
                 result_.error_estimate = std::numeric_limits<S>::infinity();
             }
-            if (any_rigid()) {
-                result_.error_estimate += finer_difference();
-            }
+            result_.error_estimate += error_of_rigid();
         }
     }
 
@@ -677,8 +691,8 @@ class Driver {
                 coarse.run(observe);
             } while (!coarse.finished() && !stopped_ && left() > 0 && !rest_ends());
             if (!stopped_) {
-                result_.error_estimate =
-                    S(largest_error(measured(coarse), fine)) + time_error() + other_errors(simulator_->state());
+                result_.error_estimate = S(largest_error(measured(coarse), fine)) + time_error() +
+                                         other_errors(simulator_->state()) + error_of_rigid();
             }
         } catch (const SimulationFailure&) {
             // Without a coarser result there is no telling.
@@ -703,7 +717,7 @@ class Driver {
             const auto fine = measured(*simulator_);
             error = largest_error(coarse, fine);
             coarse = fine;
-            result_.error_estimate = S(error) + time_error() + other_errors(simulator_->state());
+            result_.error_estimate = S(error) + time_error() + other_errors(simulator_->state()) + error_of_rigid();
             if (error <= double(params_.eps) || elements() >= most(0)) {
                 break;
             }
@@ -974,7 +988,8 @@ class Driver {
             const S resultant = instant.surface.weight.dot(force.tail(instant.surface.size()));
             const S radius = cbrt(3 * initial_measures(b).volume / (4 * pi));
             const S drift = abs(resultant) / (6 * pi * radius);
-            error = std::max<S>(error, drift / std::max(S(abs(instant.velocity)), S(1e-3)));
+            error = std::max<S>(
+                error, drift / std::max(S(abs(instant.velocity)), S(simulator_->scene().velocity_scale() / 1000)));
         }
         return error;
     }
