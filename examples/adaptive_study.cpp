@@ -321,7 +321,7 @@ int main(int argc, char** argv) {
                        {32, 48, 64, 96, 128, 160},
                        elements,
                        200},
-                 Shape{"Fig. 8, B0 = 200",
+                 Shape{"Fig. 8 with B0 = 200",
                        examples::Drive(Gravity<double>(200)),
                        spheroid(0.93),
                        0.93,
@@ -336,7 +336,7 @@ int main(int argc, char** argv) {
             }
         }
         for (const Pull& pull : {
-                 Pull{"Fig. 8, t = 0.3",
+                 Pull{"Fig. 8 at t = 0.3",
                       0.93,
                       392,
                       0.3,
@@ -346,7 +346,7 @@ int main(int argc, char** argv) {
                       200,
                       1e-6,
                       1e-8},
-                 Pull{"Fig. 9, t = 0.004",
+                 Pull{"Fig. 9 at t = 0.004",
                       0.73,
                       9320,
                       0.004,
@@ -356,7 +356,6 @@ int main(int argc, char** argv) {
                       300,
                       1e-6,
                       1e-7},
-                 Pull{"Fig. 9, t = 0.006", 0.73, 9320, 0.006, {100, 140, 200}, {128, 160}, {256}, 300, 1e-6, 1e-7},
              }) {
             if (wanted(pull.name)) {
                 PullStudy(pull).write(table);
