@@ -2,7 +2,9 @@
 // Area and volume are given back by the smallest normal displacement; impossible demands are reported.
 #include "catch.hpp"
 #include "support.hpp"
+#include <axistokes/discretization/spectral_meridian.hpp>
 #include <axistokes/geometry/restore.hpp>
+#include <axistokes/geometry/shapes.hpp>
 
 #include <cmath>
 
@@ -86,4 +88,28 @@ TEST_CASE("an area below the sphere's cannot be had", "[restore]") {
     Meridian<double> m = Spheroid{0.9, 1.2}.meridian(48);
     const auto now = measures(m);
     CHECK_FALSE(restore_area_and_volume<double>(m, 0.8 * now.area, now.volume, 1e-12));
+}
+
+TEST_CASE("excess areas of nearly spherical shapes are restored too", "[restore]") {
+    // Series, whose measures are exact to round-off. A share of the excess area is lost, and 1e-5 of the volume.
+    const axistokes::SpectralMeridian<double> series;
+    const double pi = axistokes::test::pi;
+    const double volume = 4 * pi / 3;
+    for (const double excess_area : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+        INFO("excess area " << excess_area);
+        const double area = 4 * pi + excess_area;
+        const auto spheroid = [](double excess) {
+            return axistokes::spheroid_of_excess_area<double>(excess, axistokes::SpheroidKind::oblate, 32);
+        };
+        Meridian<double> m = spheroid(0.8 * excess_area);
+        m.r *= 1 + 1e-5;
+        m.z *= 1 + 1e-5;
+        REQUIRE(series.restore(m, area, volume));
+        CHECK(series.measures(m).area - 4 * pi == Approx(excess_area).epsilon(1e-12 * area / excess_area));
+        CHECK(std::abs(series.measures(m).volume / volume - 1) < 1e-12);
+        // It is the oblate spheroid, to second order.
+        const Meridian<double> exact = spheroid(excess_area);
+        const double deviation = std::abs(exact.z[32] - 1);
+        CHECK(std::abs(m.z[32] - exact.z[32]) < 0.02 * deviation);
+    }
 }

@@ -93,7 +93,7 @@ class SampledGeometry {
             }
             const Vector<S> h = fine.mean_curvature();
             const Vector<S> da = fine.area_weights();
-            const RestoringShift<S> change(now, area, volume, da.dot(h), da.dot(h.cwiseAbs2()));
+            const RestoringShift<S> change(now, area, volume, da.dot(h), da.dot(h.cwiseAbs2()), true);
             if (change.exhausted(tolerance)) {
                 return true;
             }

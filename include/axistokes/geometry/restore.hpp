@@ -5,6 +5,7 @@
 #include "meridian_spline.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace axistokes {
@@ -13,7 +14,9 @@ namespace detail {
 
 /// The displacement (a + b H) n that takes the measures `now` to the area and volume wanted, to first order, from Int H
 /// dA and Int H^2 dA: dA = Int 2 H phi dA, dV = Int phi dA for a normal displacement phi. On a sphere, where the two
-/// cannot be changed independently, in the least-squares sense; `independent` tells.
+/// cannot be changed independently, in the least-squares sense; `independent` tells. So too close to a sphere, where
+/// Newton's method needs b << 1: b (H - 1) with H - 1 = 2 phi changes a deviation phi of second order by 2 b of it.
+/// `near_spheres`: measures and curvature are exact enough for such deviations.
 template <class S>
 struct RestoringShift {
     S constant{};
@@ -21,7 +24,7 @@ struct RestoringShift {
     bool independent = true;
 
     RestoringShift(const Measures<S>& now, const S& area, const S& volume, const S& curvature,
-                   const S& squared_curvature) {
+                   const S& squared_curvature, bool near_spheres) {
         using std::abs;
         using std::sqrt;
         // Jacobian and defect, relative. QR of the columns, the longer one first: A P = Q [n, p; 0, d].
@@ -48,9 +51,12 @@ struct RestoringShift {
         const S area_defect = (area - now.area) / area;
         const S volume_defect = (volume - now.volume) / volume;
         const S along = ar * area_defect + av * volume_defect;
-        independent = abs(d) > S(1e-5) * n;
+        const S rounding = 1000 * std::numeric_limits<S>::epsilon();
+        independent = abs(d) > rounding * n;
+        const S share = independent ? S((ar * volume_defect - av * area_defect) / d) : S(0);
+        independent = independent && (abs(d) > S(1e-5) * n || (near_spheres && abs(share) < S(0.25)));
         if (independent) {
-            *b = (ar * volume_defect - av * area_defect) / d;
+            *b = share;
             *a = (along - p * *b) / n;
         } else {
             // Of all that leave the least defect, the smallest.
@@ -96,7 +102,7 @@ bool restore_area_and_volume(Meridian<S>& meridian, const S& area, const S& volu
             total_curvature += h * da;
             squared_curvature += h * h * da;
         });
-        const detail::RestoringShift<S> change(now, area, volume, total_curvature, squared_curvature);
+        const detail::RestoringShift<S> change(now, area, volume, total_curvature, squared_curvature, false);
         if (change.exhausted(tolerance)) {
             return true;
         }
