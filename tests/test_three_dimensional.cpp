@@ -50,7 +50,7 @@ TEST_CASE("area and volume of a sphere converge in the fourth order, bending ene
     CHECK(volume[2] < 4e-6);
     CHECK(energy[2] < 5e-4);
     CHECK(spheroids[2] < 2e-3);
-    for (const std::size_t k : {0, 1}) {
+    for (const std::size_t k : {0U, 1U}) {
         CHECK(std::log2(area[k] / area[k + 1]) > 3.8);
         CHECK(std::log2(volume[k] / volume[k + 1]) > 3.8);
         CHECK(std::log2(energy[k] / energy[k + 1]) > 1.9);
