@@ -74,8 +74,8 @@ void compare(examples::Report& table, const std::string& name, const examples::D
     const double growth_seconds = examining.seconds();
     const double by_differences = newton.growth_rates(state, 1e-5).front().real();
     table.row(name, start.elements(), march.history().size(), march_seconds, state.evaluations, state.jacobians,
-              state.coarse_evaluations, state.coarse_jacobians, state.mobility_changes, newton_seconds,
-              march_seconds / newton_seconds, last.residual, state.residual, state.instant().velocity,
+              state.coarse_evaluations, state.coarse_jacobians, newton_seconds, march_seconds / newton_seconds,
+              last.residual, state.residual, state.instant().velocity,
               std::abs(state.instant().velocity / last.velocity - 1),
               std::abs(length(state.configuration().shape) - last.length), growth, growth_seconds, by_differences);
 }
@@ -110,7 +110,7 @@ void study(const std::string& directory, bool film) {
     std::cout.precision(6);
     examples::Report table(directory, "newton.csv",
                            "case,modes,steps,march_seconds,evaluations,jacobians,coarse_evaluations,coarse_jacobians,"
-                           "mobility_changes,newton_seconds,speed_up,march_residual,newton_residual,velocity,"
+                           "newton_seconds,speed_up,march_residual,newton_residual,velocity,"
                            "velocity_difference,length_difference,growth,growth_seconds,growth_by_differences");
     const auto in_tube = [&](const std::string& name, double excess_area, double confinement, double ca,
                              SpheroidKind kind, Index n) {

@@ -345,6 +345,12 @@ class Scene {
         return load;
     }
 
+    /// As WallFor::confine: `curves` at their places, layers on all of them.
+    Vector<Scalar> confine(const std::vector<Meridian<Scalar>>& curves, Matrix<Scalar>& mobility,
+                           Vector<Scalar>& background) {
+        return wall_.confine(discretization_, kernel_, curves, mobility, background);
+    }
+
     /// Undisturbed velocity on the axis.
     Scalar centreline_velocity(const Scalar& position) const {
         Scalar velocity = wall_.centreline_velocity(position);
@@ -517,7 +523,7 @@ class Scene {
             frozen.background.segment(begin, velocity.size()) = velocity;
             begin += velocity.size();
         }
-        frozen.unit_flow = wall_.confine(discretization_, kernel_, places, frozen.mobility, frozen.background);
+        frozen.unit_flow = confine(places, frozen.mobility, frozen.background);
         if constexpr (requires(Point<Scalar> x) { kernel_.unit_flow(x); }) {
             add_unit_flow(places, size, frozen.unit_flow);
         }

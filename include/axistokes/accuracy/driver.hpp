@@ -757,6 +757,12 @@ class Driver {
     /// flow it is small from the start: a solution far from the marched shape is not taken before the march has come
     /// much closer to rest, unless it does not get there at all (a limit cycle).
     void find_stationary() {
+        if (fills_tube()) {
+            march(simulator_->params().tolerance, 1, std::min<Index>(steps() + 1, simulator_->params().most_steps));
+            if (stopped_ || converged(true, film_elements())) {
+                return;
+            }
+        }
         const bool eager = params_.way == WayToStationary::newton;
         const int attempts = simulator_->bodies() > 1 ? 3 : 5;
         constexpr Index least = 20;
@@ -790,6 +796,28 @@ class Driver {
         march_to_the_end();
     }
 
+    /// Of a lone vesicle, longer than wide, with a thin film around it: it has hardly another shape to go to, and a
+    /// march through the film is slow.
+    bool fills_tube() const {
+        if constexpr (Simulator::SceneType::confined) {
+            const Configuration<S>& body = simulator_->configuration();
+            return simulator_->bodies() == 1 && detail::keeps_area(simulator_->scene().law(0)) && spectral() &&
+                   length(body) > 2 * body.shape.r.maxCoeff() &&
+                   simulator_->scene().film_thickness(body).min < S(0.1) * body.shape.r.maxCoeff();
+        } else {
+            return false;
+        }
+    }
+
+    /// Of the body there: forces vary over sqrt(h Rc) along a film of thickness h in a tube of radius Rc.
+    Index film_elements() const {
+        using std::sqrt;
+        const Configuration<S>& body = simulator_->configuration();
+        const S film = simulator_->scene().film_thickness(body).min;
+        const S width = film + body.shape.r.maxCoeff();
+        return static_cast<Index>(detail::chord_length(body.shape) / (S(0.4) * sqrt(film * width)));
+    }
+
     /// A residual from which Newton's method takes a few evaluations, without coarser solutions first.
     static S near() { return S(1e-5); }
 
@@ -803,10 +831,10 @@ class Driver {
         return simulator_->residual() < before / 3;
     }
 
-    bool converged(bool anywhere) {
+    bool converged(bool anywhere, Index least = 0) {
         const Result before = result_;
         try {
-            converge(anywhere);
+            converge(anywhere, least);
             result_.newton_failure.clear();
             return true;
         } catch (const SimulationFailure& failure) {
@@ -818,7 +846,7 @@ class Driver {
 
     /// The stationary state near the simulator's, with more and more elements if these are to be chosen. What a finer
     /// one fails to improve stays.
-    void converge(bool anywhere) {
+    void converge(bool anywhere, Index least) {
         if constexpr (deformable && !std::is_void_v<Solver>) {
             typename Solver::Params solver_params;
             solver_params.tolerance = params_.newton_tolerance;
@@ -829,7 +857,10 @@ class Driver {
                 return !stopped_;
             };
             Solver solver(simulator_->scene(), solver_params);
-            const State start = centred();
+            State start = centred();
+            if (adapts() && least > elements()) {
+                start.front() = simulator_->scene().redistributed(start.front(), std::min(least, most()));
+            }
             const bool several = start.size() > 1;
             std::vector<Measures<S>> measures;
             for (std::size_t b = 0; b < start.size(); ++b) {
@@ -1089,7 +1120,7 @@ class Driver {
         if (several && !(error < std::numeric_limits<S>::infinity())) {
             throw SimulationFailure("stationary state: the films between the bodies are not resolved");
         }
-        constexpr Index enough = 64;
+        constexpr Index enough = 128;
         Found state = given;
         Index elements = 0;
         bool fewer = false;

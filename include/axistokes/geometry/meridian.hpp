@@ -44,6 +44,15 @@ bool segments_cross(const Point<S>& a, const Point<S>& b, const Point<S>& c, con
     return c_and_d_apart && a_and_b_apart;
 }
 
+/// Sum of the distances of neighbouring nodes.
+template <class S>
+S chord_length(const Meridian<S>& m) {
+    const Index n = m.elements();
+    const Vector<S> dr = m.r.tail(n) - m.r.head(n);
+    const Vector<S> dz = m.z.tail(n) - m.z.head(n);
+    return (dr.cwiseAbs2() + dz.cwiseAbs2()).cwiseSqrt().sum();
+}
+
 inline void require_elements(Index elements) {
     require(elements >= minimum_elements, "number of elements", elements, "at least 8");
 }

@@ -17,8 +17,6 @@ template <class S>
 struct SeriesTransfer {
     Matrix<S> even;
     Matrix<S> odd;
-    /// Amplitudes of the modes cos(kt) that both have.
-    Matrix<S> amplitudes;
 
     SeriesTransfer(Index from, Index to) {
         using std::cos;
@@ -34,8 +32,7 @@ struct SeriesTransfer {
                 sines(i, k) = i == 0 || i == to ? S(0) : S(sin(angle));
             }
         }
-        amplitudes = basis->even_coefficients().topRows(modes);
-        even = cosines * amplitudes;
+        even = cosines * basis->even_coefficients().topRows(modes);
         odd = sines * basis->odd_coefficients().topRows(modes);
     }
 

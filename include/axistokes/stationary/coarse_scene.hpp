@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A scene with integrals as coarse as a first guess or a derivative needs them.
+// A scene with integrals as coarse as a first guess needs them.
 #pragma once
 
 #include "../scene.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <concepts>
-#include <limits>
 
 namespace axistokes::detail {
 
@@ -29,13 +26,6 @@ SceneType loosened_scene(const SceneType& scene, const S& tolerance) {
                     scene.flow(), scene.solver(), scene.wall());
     loose.proceed_while(scene.proceed());
     return loose;
-}
-
-/// For differences of integrals that are correct to a few digits: the error made is about the step itself.
-template <class S>
-S coarse_difference_step() {
-    using std::sqrt;
-    return std::max(S(3e-4), S(sqrt(std::numeric_limits<S>::epsilon())));
 }
 
 }  // namespace axistokes::detail

@@ -3,7 +3,6 @@
 // section 4).
 #pragma once
 
-#include "coarse_scene.hpp"
 #include "continuation.hpp"
 #include "stationary_equations.hpp"
 
@@ -26,8 +25,6 @@ requires(SceneType::deformable) class StationaryBranch {
     struct Params {
         /// Difference of the parameter for derivatives; > 0. The integrals' errors are divided by it.
         Scalar parameter_step = Scalar(1e-4);
-        /// Degree of the meridian on which the mobility's change is found; at least 8.
-        Index change_degree = 16;
     };
 
     struct Point {
@@ -40,8 +37,6 @@ requires(SceneType::deformable) class StationaryBranch {
                      std::function<Scalar(Scalar)> volume, Params params = {})
         : scene_(std::move(scene)), area_(std::move(area)), volume_(std::move(volume)), params_(params) {
         detail::require(params.parameter_step > Scalar(0), "parameter step", params.parameter_step, "> 0");
-        detail::require(params.change_degree >= 8, "degree of the mobility's change", params.change_degree,
-                        "at least 8");
     }
 
     /// `shape` at parameter p; need not be stationary. Throws SimulationFailure if it cannot have area and volume.
@@ -67,13 +62,9 @@ requires(SceneType::deformable) class StationaryBranch {
     Matrix<Scalar> derivative(const Point& point) {
         const auto& bodies = point.state.bodies;
         const Index n = point.state.velocity.size();
-        detail::MobilityChange<SceneType> change;
-        SceneType coarse = detail::loosened_scene(*point.scene, Scalar(1e-4));
-        const Index degree = std::min(params_.change_degree, n - 1);
-        change.find(*point.scene, coarse, point.state, degree);
         const auto constraints = detail::constraints(*point.scene, point.state);
-        const Matrix<Scalar> system = detail::bordered<Scalar>(
-            constraints, detail::VelocityJacobian<SceneType>(*point.scene, point.state, change)());
+        const Matrix<Scalar> system =
+            detail::bordered<Scalar>(constraints, detail::VelocityJacobian<SceneType>(*point.scene, point.state)());
         const Index m = system.rows();
         Matrix<Scalar> derivative = Matrix<Scalar>::Zero(m, m + 1);
         derivative.leftCols(m) = system;

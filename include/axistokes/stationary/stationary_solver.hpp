@@ -3,12 +3,14 @@
 //
 // Unknowns: normal displacements phi of the nodes, and axial ones of rigid bodies. Equations: the velocities against
 // them relative to the first body's centroid vanish, w(x) = 0, with areas, volumes and the first body's place given.
-// The Jacobian J is that of velocity_jacobian.hpp, corrected by what the iterations show to be missing (Broyden 1965).
+// The Jacobian J is that of velocity_jacobian.hpp; between its renewals it learns from the iterations (Broyden 1965).
 // Far from the solution a step is one of the linearly implicit Euler method, (1/dt - J) phi = w, with the longest dt
 // that keeps the displacement within bounds.
 #pragma once
 
+#include "../geometry/series_transfer.hpp"
 #include "broyden.hpp"
+#include "coarse_scene.hpp"
 #include "stationary_equations.hpp"
 
 #include <algorithm>
@@ -27,8 +29,8 @@ struct StationaryParams {
     S tolerance = S(1e-9);
     /// Go on below the tolerance as long as an iteration reduces the residual by the factor `renewal`.
     bool to_round_off = false;
-    Index most_iterations = 60;
-    /// Largest normal displacement in an iteration, in R0.
+    Index most_iterations = 100;
+    /// Largest normal displacement in an iteration, in R0; next to a wall, over three times the distance from it.
     S largest_displacement = S(0.1);
     /// A trial may increase the residual by this factor.
     S allowed_increase = S(2);
@@ -55,7 +57,6 @@ struct StationaryState {
     Index jacobians = 0;           // likewise
     Index coarse_evaluations = 0;  // with half of the modes, or fewer
     Index coarse_jacobians = 0;
-    Index mobility_changes = 0;  // coarse linearisations of the single layer
 
     const Configuration<S>& configuration(std::size_t body = 0) const { return bodies.at(body); }
     const InstantType& instant(std::size_t body = 0) const { return instants.at(body); }
@@ -104,8 +105,7 @@ requires(SceneType::deformable) class StationarySolver {
         }
         const auto conserved = detail::conserved_in(scene_, measures);
         State state;
-        Linearisation linearisation;
-        if (params_.coarse_start && fewest_elements(bodies) / 2 >= least_degree) {
+        if (params_.coarse_start && half_resolves(bodies)) {
             try {
                 State coarse;
                 Bodies start = bodies;
@@ -117,22 +117,20 @@ requires(SceneType::deformable) class StationarySolver {
                         throw SimulationFailure(cause);
                     }
                 }
-                iterate(coarse_, start, conserved, coarse_tolerance(), linearisation, coarse);
+                iterate(coarse_, start, conserved, coarse_tolerance(), coarse);
                 state.coarse_evaluations = coarse.evaluations;
                 state.coarse_jacobians = coarse.jacobians;
-                state.mobility_changes = coarse.mobility_changes;
                 start = std::move(coarse.bodies);
                 for (std::size_t b = 0; b < start.size(); ++b) {
                     resample(start, b, bodies[b].shape.elements());
                 }
-                iterate(scene_, start, conserved, params_.tolerance, linearisation, state);
+                iterate(scene_, start, conserved, params_.tolerance, state);
                 return state;
             } catch (const SimulationFailure&) {
                 // Half of the nodes may not resolve the shape.
-                linearisation = {};
             }
         }
-        iterate(scene_, bodies, conserved, params_.tolerance, linearisation, state);
+        iterate(scene_, bodies, conserved, params_.tolerance, state);
         return state;
     }
     /// Of one body, near `shape`.
@@ -144,26 +142,8 @@ requires(SceneType::deformable) class StationarySolver {
     /// part first: the eigenvalues of dw/dphi on these disturbances. The state is stable if all are negative.
     std::vector<std::complex<Scalar>> growth_rates(const State& state) {
         const Point point = point_of(state);
-        SceneType accurate = detail::loosened_scene(scene_, rates_quadrature());
-        const auto constraints = detail::constraints(scene_, point);
-        const auto rates_with = [&](Index degree) {
-            detail::MobilityChange<SceneType> change;
-            change.find_accurately(scene_, accurate, point, degree);
-            return detail::growth_rates<Scalar>(constraints,
-                                                detail::VelocityJacobian<SceneType>(scene_, point, change, true)());
-        };
-        const Index finest = most_elements(state.bodies);
-        Index degree = std::min(coarsest_rates, finest);
-        auto rates = rates_with(degree);
-        for (Scalar change = rates_accuracy() * 2; change > rates_accuracy() && degree < finest;) {
-            degree = change > 10 * rates_accuracy() ? finest : raised(degree, finest);
-            auto finer = rates_with(degree);
-            // Its real part tells whether the state is stable, however fast it oscillates.
-            const Scalar size = std::max<Scalar>(std::abs(finer.front().real()), std::abs(finer.front()) / 50);
-            change = std::abs(finer.front() - rates.front()) / size;
-            rates = std::move(finer);
-        }
-        return rates;
+        return detail::growth_rates<Scalar>(detail::constraints(scene_, point),
+                                            detail::VelocityJacobian<SceneType>(scene_, point, true)());
     }
 
     /// The same by central differences of the full equations: twice as many evaluations as unknowns.
@@ -191,22 +171,31 @@ requires(SceneType::deformable) class StationarySolver {
     using Conserved = std::vector<axistokes::Conserved<Scalar>>;
 
     /// Of the deformable bodies.
-    template <class Best>
-    Index elements(const Bodies& bodies, const Best& best) const {
-        Index found = 0;
+    Index fewest_elements(const Bodies& bodies) const {
+        Index fewest = std::numeric_limits<Index>::max();
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             if (scene_.deforms(b)) {
-                const Index own = bodies[b].shape.elements();
-                found = found == 0 ? own : best(found, own);
+                fewest = std::min(fewest, bodies[b].shape.elements());
             }
         }
-        return found;
+        return fewest;
     }
-    Index fewest_elements(const Bodies& bodies) const {
-        return elements(bodies, [](Index a, Index b) { return std::min(a, b); });
-    }
-    Index most_elements(const Bodies& bodies) const {
-        return elements(bodies, [](Index a, Index b) { return std::max(a, b); });
+
+    /// Whether half of the elements, and coarse integrals, may do for a first guess. Along a film of thickness h in a
+    /// tube of radius Rc forces vary over sqrt(h Rc), and the wall leaves (h/Rc)^(5/2) of them.
+    bool half_resolves(const Bodies& bodies) const {
+        using std::sqrt;
+        bool resolved = fewest_elements(bodies) / 2 >= least_degree;
+        if constexpr (SceneType::confined) {
+            for (std::size_t b = 0; b < bodies.size(); ++b) {
+                const Scalar film = scene_.film_thickness(bodies[b]).min;
+                const Scalar width = scene_.gap({Scalar(0), bodies[b].position});
+                const Scalar spacing = 2 * detail::chord_length(bodies[b].shape) / Scalar(bodies[b].shape.elements());
+                const bool fine = spacing <= Scalar(0.85) * sqrt(film * width) && film >= Scalar(0.02) * width;
+                resolved = resolved && (fine || !scene_.deforms(b));
+            }
+        }
+        return resolved;
     }
 
     void resample(Bodies& bodies, std::size_t b, Index elements) const {
@@ -227,20 +216,6 @@ requires(SceneType::deformable) class StationarySolver {
     /// Least degree and residual of a solution that is a first guess.
     static constexpr Index least_degree = 12;
     static Scalar coarse_tolerance() { return Scalar(1e-4); }
-    /// Degree of the meridian on which the mobility's change is found: at first, and when it does not suffice.
-    static constexpr Index coarsest_change = 12;
-    static Index raised(Index degree, Index elements) { return std::min((3 * degree) / 2, elements); }
-    /// For growth rates the degree is raised from this one until the leading rate changes by less than the accuracy.
-    static constexpr Index coarsest_rates = 20;
-    static Scalar rates_accuracy() { return Scalar(0.01); }
-    static Scalar rates_quadrature() { return Scalar(1e-7); }
-    /// Displacement after which the mobility's change is found again, in R0.
-    static Scalar stale_change() { return Scalar(0.1); }
-
-    struct Linearisation {
-        detail::MobilityChange<SceneType> change;
-        Scalar travelled = std::numeric_limits<Scalar>::max();  // since then, in R0
-    };
 
     /// Whether nodes were moved.
     bool redistribute(const SceneType& scene, Bodies& bodies) const {
@@ -253,7 +228,7 @@ requires(SceneType::deformable) class StationarySolver {
 
     /// From `bodies` to the stationary state of `scene`; counts what it takes, also when it fails.
     void iterate(SceneType& scene, const Bodies& bodies, const Conserved& conserved, const Scalar& tolerance,
-                 Linearisation& linearisation, State& state) {
+                 State& state) {
         Point point;
         point.bodies = bodies;
         redistribute(scene, point.bodies);
@@ -264,13 +239,10 @@ requires(SceneType::deformable) class StationarySolver {
         ++state.evaluations;
         Matrix<Scalar> jacobian;
         Scalar growth = 0;
-        const auto renew = [&](Index degree) {
-            if (linearisation.travelled > stale_change() || degree > linearisation.change.degree()) {
-                linearisation.change.find(scene, coarse_, point, degree);
-                linearisation.travelled = 0;
-                ++state.mobility_changes;
-            }
-            jacobian = detail::VelocityJacobian<SceneType>(scene, point, linearisation.change)();
+        Scalar travelled = 0;  // since the Jacobian was found, in units of the limit
+        const auto renew = [&] {
+            jacobian = detail::VelocityJacobian<SceneType>(scene, point)();
+            travelled = 0;
             ++state.jacobians;
             if (params_.only_stable) {
                 state.growth = detail::growth_rates<Scalar>(detail::constraints(scene, point), jacobian).front().real();
@@ -278,21 +250,6 @@ requires(SceneType::deformable) class StationarySolver {
             }
         };
         Scalar limit = params_.largest_displacement;
-        const Index most = most_elements(bodies);
-        Index degree = std::min(std::max(coarsest_change, linearisation.change.degree()), most);
-        // After a short step that gained little: whether the mobility's change can be improved, by a higher degree or,
-        // if next to nothing was gained, for having been found too far away. If not, another Jacobian would be the
-        // same, without what it has learned.
-        const auto refine = [&](const Scalar& length, bool hardly) {
-            const bool finest = degree == most;
-            const bool distant = hardly && linearisation.travelled > 3 * length;
-            if (!finest) {
-                degree = raised(degree, most);
-            } else if (distant) {
-                linearisation.travelled = std::numeric_limits<Scalar>::max();
-            }
-            return !finest || distant;
-        };
         const bool to_round_off = params_.to_round_off && &scene == &scene_;
         bool going = !(point.residual < tolerance) || to_round_off;
         for (Index iteration = 1; going; ++iteration) {
@@ -310,10 +267,11 @@ requires(SceneType::deformable) class StationarySolver {
             }
             ++state.iterations;
             if (jacobian.size() == 0) {
-                renew(degree);
+                renew();
             }
-            const Vector<Scalar> step = bounded_step(scene, point, jacobian, Scalar(1.1) * growth, limit);
-            const Scalar length = step.cwiseAbs().maxCoeff();
+            const Vector<Scalar> room = room_of(scene, point);
+            const Vector<Scalar> step = bounded_step(scene, point, jacobian, Scalar(1.1) * growth, room, limit);
+            const Scalar length = step.cwiseQuotient(room).cwiseAbs().maxCoeff();
             if (!(length < std::numeric_limits<Scalar>::max())) {
                 throw SimulationFailure("stationary state: the linearised equations are singular");
             }
@@ -322,11 +280,8 @@ requires(SceneType::deformable) class StationarySolver {
             const bool usable = detail::settle(scene, trial.bodies, conserved).empty();
             bool moved = false;
             if (usable) {
-                moved = redistribute(scene, trial.bodies);
                 detail::evaluate(scene, trial);
                 ++state.evaluations;
-            }
-            if (usable && !moved) {
                 detail::learn<Scalar>(jacobian, step, trial.velocity - point.velocity);
             }
             if (converged && !(usable && trial.residual < point.residual)) {
@@ -341,15 +296,27 @@ requires(SceneType::deformable) class StationarySolver {
                 const bool stale = !(trial.residual < point.residual / params_.renewal);
                 const bool hardly = !(trial.residual < point.residual / 2);
                 point = std::move(trial);
+                if (!(point.residual < tolerance)) {
+                    moved = redistribute(scene, point.bodies);
+                    if (moved) {
+                        if (const std::string cause = detail::settle(scene, point.bodies, conserved); !cause.empty()) {
+                            throw SimulationFailure("stationary state: after its nodes were moved " + cause);
+                        }
+                        detail::evaluate(scene, point);
+                        ++state.evaluations;
+                    }
+                }
                 going = !(point.residual < tolerance) || (to_round_off && !stale);
-                linearisation.travelled += length + (moved ? stale_change() / 2 : Scalar(0));
-                if (!(point.residual < tolerance) && (moved || (stale && (!short_step || refine(length, hardly))))) {
-                    renew(degree);
+                travelled += length;
+                // After a short step the Jacobian would be the same again, without what it has learned.
+                const bool outdated = !short_step || hardly;
+                if (!(point.residual < tolerance) && (moved || (stale && outdated))) {
+                    renew();
                 }
                 limit = std::min(params_.largest_displacement, Scalar(2 * limit));
             } else {
-                if (usable && short_step && refine(length, true)) {
-                    renew(degree);
+                if (usable && short_step && travelled > 3 * length) {
+                    renew();
                 }
                 limit = std::min(limit, length) / 4;
                 if (limit < std::numeric_limits<Scalar>::epsilon()) {
@@ -366,6 +333,21 @@ requires(SceneType::deformable) class StationarySolver {
         state.residual = point.residual;
     }
 
+    /// What displacements are bounded by, in units of the limit: thrice the film's thickness, and no more than R0.
+    static Vector<Scalar> room_of(const SceneType& scene, const Point& point) {
+        const detail::StationaryLayout layout(scene, point.bodies);
+        Vector<Scalar> room = Vector<Scalar>::Ones(layout.all());
+        for (std::size_t b = 0; b < point.bodies.size(); ++b) {
+            const Meridian<Scalar>& shape = point.bodies[b].shape;
+            const Scalar position = point.bodies[b].position;
+            for (Index i = 0; scene.deforms(b) && i < shape.nodes(); ++i) {
+                room[layout.unknowns[b] + i] = std::min(
+                    Scalar(1), Scalar(3 * scene.gap(axistokes::Point<Scalar>{shape.r[i], shape.z[i] + position})));
+            }
+        }
+        return room;
+    }
+
     /// (J - s) phi = -w with the constraints' changes zero.
     static Vector<Scalar> newton_step(const Point& point, Matrix<Scalar> system, const Scalar& shift) {
         const Index n = point.velocity.size();
@@ -377,23 +359,23 @@ requires(SceneType::deformable) class StationarySolver {
 
     /// The step with the least shift, from `least` on, whose displacements keep to the limit.
     static Vector<Scalar> bounded_step(const SceneType& scene, const Point& point, const Matrix<Scalar>& jacobian,
-                                       const Scalar& least, const Scalar& limit) {
+                                       const Scalar& least, const Vector<Scalar>& room, const Scalar& limit) {
         using std::sqrt;
         const Matrix<Scalar> system = detail::bordered(detail::constraints(scene, point), jacobian);
         Vector<Scalar> step = newton_step(point, system, least);
-        if (step.cwiseAbs().maxCoeff() <= limit) {
+        if (step.cwiseQuotient(room).cwiseAbs().maxCoeff() <= limit) {
             return step;
         }
         // Without elasticity the displacement is w/s.
-        Scalar high = least + point.velocity.cwiseAbs().maxCoeff() / limit;
+        Scalar high = least + point.velocity.cwiseQuotient(room).cwiseAbs().maxCoeff() / limit;
         Scalar low = least + (high - least) / Scalar(4096);
         for (int k = 0; k < 5; ++k) {
             const Scalar middle = least + sqrt((low - least) * (high - least));
             step = newton_step(point, system, middle);
-            (step.cwiseAbs().maxCoeff() > limit ? low : high) = middle;
+            (step.cwiseQuotient(room).cwiseAbs().maxCoeff() > limit ? low : high) = middle;
         }
         step = newton_step(point, system, high);
-        const Scalar length = step.cwiseAbs().maxCoeff();
+        const Scalar length = step.cwiseQuotient(room).cwiseAbs().maxCoeff();
         return length > limit ? Vector<Scalar>(step * (limit / length)) : step;
     }
 

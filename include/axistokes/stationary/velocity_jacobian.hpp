@@ -3,11 +3,8 @@
 // (docs/stationary.md).
 #pragma once
 
-#include "../equation/flux.hpp"
-#include "../geometry/series_transfer.hpp"
 #include "../operators.hpp"
-#include "coarse_scene.hpp"
-#include "stationary_point.hpp"
+#include "mobility_change.hpp"
 
 #include <Eigen/LU>
 
@@ -21,223 +18,10 @@
 
 namespace axistokes::detail {
 
-/// A body's undisturbed velocity as the equations have it, but for what a meshed wall adds.
-template <class SceneType>
-Vector<typename SceneType::Scalar> undisturbed(const SceneType& scene, std::size_t body,
-                                               const Configuration<typename SceneType::Scalar>& configuration,
-                                               const typename SceneType::Surface& surface) {
-    using S = typename SceneType::Scalar;
-    const Vector<S> flow = scene.background_velocity(configuration);
-    return scene.deforms(body) ? without_flux<S>(surface, flow) : flow;
-}
-
-/// The change of G f + (what walls add to the flow), f fixed, with the unknowns, found on coarse meridians: it is
-/// smoother by three derivatives than that of the bending force. Kept as the amplitudes of modes cos(kt) of the normal
-/// displacements, it serves any number of nodes, and shapes near by.
-///
-/// How several bodies push each other along may be a small part of it: their translations are differentiated with all
-/// nodes and the scene's own integrals.
-template <class SceneType>
-class MobilityChange {
-  public:
-    using S = typename SceneType::Scalar;
-    using State = typename SceneType::State;
-    using Point = StationaryPoint<SceneType>;
-
-    Index degree() const { return degree_; }
-
-    /// For an iteration: one-sided differences, the first three quarters of the modes.
-    void find(SceneType& scene, SceneType& coarse, const Point& point, Index degree) {
-        find(scene, coarse, point, degree, false);
-    }
-    /// For growth rates, in films no thicker than some hundred steps of the differences too: central ones, all modes.
-    void find_accurately(SceneType& scene, SceneType& coarse, const Point& point, Index degree) {
-        find(scene, coarse, point, degree, true);
-    }
-
-    /// At all nodes of a point, r and z stacked for each body, by its unknowns.
-    Matrix<S> at_nodes(const SceneType& scene, const Point& point) const {
-        const StationaryLayout layout(scene, point.bodies);
-        Matrix<S> by_unknown = Matrix<S>::Zero(change_.rows(), layout.all());
-        Index mode = 0;
-        for (std::size_t b = 0; b < point.bodies.size(); ++b) {
-            const Index begin = layout.unknowns[b];
-            const Index n = layout.unknowns[b + 1] - begin;
-            if (degrees_[b] > 0) {
-                const auto down = SeriesTransfer<S>::between(n - 1, degrees_[b]);
-                by_unknown.middleCols(begin, n) =
-                    change_.middleCols(mode, modes_[b]) * down->amplitudes.topRows(modes_[b]);
-            }
-            const Translation<S> along = translation(scene, point, b);
-            if (translations_.cols() > 0 && along.exists()) {
-                along.set(by_unknown.middleCols(begin, n), translations_.col(static_cast<Index>(b)));
-            }
-            mode += modes_[b];
-        }
-        Matrix<S> result(layout.all_velocities(), layout.all());
-        Index row = 0;
-        for (std::size_t b = 0; b < point.bodies.size(); ++b) {
-            const Index begin = 2 * layout.nodes[b];
-            const Index n = point.bodies[b].shape.nodes();
-            if (degrees_[b] > 0) {
-                const auto up = SeriesTransfer<S>::between(degrees_[b], n - 1);
-                const Index rows = degrees_[b] + 1;
-                result.middleRows(begin, n) = up->odd * by_unknown.middleRows(row, rows);
-                result.middleRows(begin + n, n) = up->even * by_unknown.middleRows(row + rows, rows);
-                row += 2 * rows;
-            } else {
-                result.middleRows(begin, 2 * n) = by_unknown.middleRows(row, 2 * n);
-                row += 2 * n;
-            }
-        }
-        return result;
-    }
-
-  private:
-    /// G f + (what walls add) on displaced bodies.
-    class Velocity {
-      public:
-        Velocity(SceneType& scene, const State& bodies, const std::vector<Vector<S>>& forces)
-            : scene_(scene), layout_(scene, bodies), force_(layout_.all_velocities()) {
-            for (std::size_t b = 0; b < bodies.size(); ++b) {
-                force_.segment(2 * layout_.nodes[b], forces[b].size()) = forces[b];
-            }
-        }
-
-        Vector<S> operator()(const State& at) const { return (*this)(at, scene_.freeze(at)); }
-        Vector<S> operator()(const State& at, const typename SceneType::Frozen& frozen) const {
-            Vector<S> u = frozen.mobility * force_;
-            if constexpr (std::decay_t<decltype(scene_.wall())>::present) {
-                u += frozen.background;
-                for (std::size_t b = 0; b < at.size(); ++b) {
-                    const Vector<S> flow = undisturbed(scene_, b, at[b], frozen.bodies[b].surface);
-                    u.segment(2 * layout_.nodes[b], flow.size()) -= flow;
-                }
-            }
-            return u;
-        }
-
-      private:
-        SceneType& scene_;
-        StationaryLayout layout_;
-        Vector<S> force_;
-    };
-
-    /// Velocities, or forces, at the nodes of a body by those of its coarse meridian; of a rigid one, which has none,
-    /// as they are.
-    Vector<S> coarsened(std::size_t body, const Vector<S>& values) const {
-        if (degrees_[body] == 0) {
-            return values;
-        }
-        const Index n = values.size() / 2;
-        const auto down = SeriesTransfer<S>::between(n - 1, degrees_[body]);
-        return stacked<S>(down->odd * values.head(n), down->even * values.tail(n));
-    }
-
-    /// To the meridian of that degree, or of the first above it that carries the shape: a thin tube takes more.
-    static Index coarsen(Configuration<S>& body, Index degree) {
-        const Meridian<S> fine = std::move(body.shape);
-        body.shape = resampled(fine, degree);
-        while (degree < fine.elements() && !fault(body.shape).empty()) {
-            degree = std::min((3 * degree) / 2, fine.elements());
-            body.shape = resampled(fine, degree);
-        }
-        body.tension.resize(0);
-        return degree;
-    }
-
-    void find(SceneType& scene, SceneType& coarse, const Point& point, Index degree, bool accurately) {
-        degree_ = degree;
-        degrees_.clear();
-        modes_.clear();
-        State there = point.bodies;
-        std::vector<Vector<S>> fine;
-        std::vector<Vector<S>> forces;
-        for (std::size_t b = 0; b < there.size(); ++b) {
-            Index own = 0;
-            if (coarse.deforms(b)) {
-                own = coarsen(there[b], std::min(degree, there[b].shape.elements()));
-                degree_ = std::max(degree_, own);
-            }
-            degrees_.push_back(own);
-            modes_.push_back(accurately && own > 0 ? own + 1 : (3 * own) / 4);
-            fine.push_back(point.instants[b].solution.force);
-            forces.push_back(coarsened(b, fine.back()));
-        }
-        shape_modes(coarse, there, forces, accurately);
-        translations_.resize(change_.rows(), 0);
-        if (there.size() > 1) {
-            translate(scene, point.bodies, fine);
-        }
-    }
-
-    /// One-sided or central: an assembly for each mode, or two.
-    void shape_modes(SceneType& scene, const State& bodies, const std::vector<Vector<S>>& forces, bool central) {
-        using std::cos;
-        const S step = coarse_difference_step<S>();
-        Point point;
-        point.bodies = bodies;
-        point.frozen = scene.freeze(bodies);
-        const StationaryLayout layout(scene, bodies);
-        const Velocity velocity(scene, bodies, forces);
-        const Vector<S> here = velocity(bodies, point.frozen);
-        Index modes = 0;
-        for (const Index own : modes_) {
-            modes += own;
-        }
-        change_.resize(layout.all_velocities(), modes);
-        Index column = 0;
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            for (Index k = 0; k < modes_[b]; ++k, ++column) {
-                Vector<S> mode = Vector<S>::Zero(layout.all());
-                for (Index i = 0; i <= degrees_[b]; ++i) {
-                    mode[layout.unknowns[b] + i] =
-                        step * cos(pi_value<S>() * S(k * i % (2 * degrees_[b])) / S(degrees_[b]));
-                }
-                const auto moved = [&](const S& factor) {
-                    return velocity(displaced(scene, point, Vector<S>(factor * mode)));
-                };
-                if (central) {
-                    change_.col(column) = (moved(S(1)) - moved(S(-1))) / (2 * step);
-                } else {
-                    change_.col(column) = (moved(S(1)) - here) / step;
-                }
-            }
-        }
-    }
-
-    void translate(SceneType& scene, const State& bodies, const std::vector<Vector<S>>& forces) {
-        const StationaryLayout layout(scene, bodies);
-        const Velocity velocity(scene, bodies, forces);
-        const Films<S> films = scene.films(bodies);
-        translations_.resize(change_.rows(), static_cast<Index>(bodies.size()));
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            const S step = S(0.01) * std::min(S(1), films.bodies[b].to_neighbour);
-            State moved = bodies;
-            moved[b].position += step;
-            Vector<S> change = velocity(moved);
-            moved[b].position -= 2 * step;
-            change -= velocity(moved);
-            Index row = 0;
-            for (std::size_t k = 0; k < bodies.size(); ++k) {
-                const Vector<S> own = coarsened(k, change.segment(2 * layout.nodes[k], 2 * bodies[k].shape.nodes()));
-                translations_.col(static_cast<Index>(b)).segment(row, own.size()) = own / (2 * step);
-                row += own.size();
-            }
-        }
-    }
-
-    Index degree_ = 0;
-    std::vector<Index> degrees_;  // 0 of rigid bodies
-    std::vector<Index> modes_;    // likewise
-    Matrix<S> change_;
-    Matrix<S> translations_;  // of several bodies, each by itself
-};
-
 /// d(velocity)/d(unknowns) of u = u_inf + G f at a point; f = F + load + T gamma with D u = 0 of an inextensible body,
 /// F + load of one without constraint, and the traction that makes a rigid one move as such. The derivatives of F, T,
 /// D, of the load, of u_inf and of the normals are differences without assemblies, one-sided or, `accurately`, central
-/// ones: of the bending force, eps N^4 large, only these keep some digits. That of G comes from `mobility_change`.
+/// ones: of the bending force, eps N^4 large, only these keep some digits. That of G is MobilityChange's.
 template <class SceneType>
 class VelocityJacobian {
     using S = typename SceneType::Scalar;
@@ -245,13 +29,12 @@ class VelocityJacobian {
     using Point = StationaryPoint<SceneType>;
 
   public:
-    VelocityJacobian(const SceneType& scene, const Point& point, const MobilityChange<SceneType>& mobility_change,
-                     bool accurately = false)
+    VelocityJacobian(SceneType& scene, const Point& point, bool accurately = false)
         : scene_(scene),
           point_(point),
           accurately_(accurately),
           layout_(scene, point.bodies),
-          change_(mobility_change.at_nodes(scene, point)),
+          change_(MobilityChange<SceneType>(scene, point)()),
           flow_change_(Matrix<S>::Zero(layout_.all_velocities(), layout_.all())),
           force_change_(Matrix<S>::Zero(layout_.all_velocities(), layout_.all())),
           local_(Matrix<S>::Zero(layout_.all(), layout_.all())),
@@ -292,10 +75,13 @@ class VelocityJacobian {
         }
     };
 
-    Local local(std::size_t b, const Configuration<S>& body, const Surface& surface, const Vector<S>& motion) const {
+    /// `pressure`: the uniform part of the force, as in MobilityChange.
+    Local local(std::size_t b, const Configuration<S>& body, const Surface& surface, const Vector<S>& motion,
+                const S& pressure) const {
         Local at;
         at.force = elastic_force<S>(scene_.law(b), surface);
         at.force += scene_.normal_load(body, surface);
+        at.force -= pressure * surface.normals();
         if (inextensible(b)) {
             at.force += applied(surface.tension_force, point_.instants[b].solution.tension);
             at.stretch = applied(surface.divergence, motion);
@@ -319,12 +105,14 @@ class VelocityJacobian {
         motion.tail(n).array() -= point_.instants.front().velocity;
         const S eps = std::numeric_limits<S>::epsilon();
         const S step = accurately_ ? S(cbrt(eps)) : S(sqrt(eps));
+        const S pressure = surface.flux(point_.instants[b].solution.force) / surface.flux(surface.normals());
         const auto moved = [&](Index j, const S& distance) {
             Configuration<S> there = body;
             displace<S>(there.shape, surface, distance * Vector<S>::Unit(n, j));
-            return local(b, there, scene_.discretization().surface(there.shape, SurfaceParts::all), motion).stacked();
+            return local(b, there, scene_.discretization().surface(there.shape, SurfaceParts::all), motion, pressure)
+                .stacked();
         };
-        const Local here = local(b, body, surface, motion);
+        const Local here = local(b, body, surface, motion, pressure);
         const Vector<S> all = here.stacked();
         stretch_[b] = Matrix<S>::Zero(here.stretch.size(), layout_.all());
         for (Index j = 0; j < n; ++j) {
@@ -344,12 +132,13 @@ class VelocityJacobian {
 
     /// Of a translation nothing changes but the undisturbed flow at the nodes.
     void translate(std::size_t b) {
+        using std::cbrt;
         const Translation<S> along = translation(scene_, point_, b);
         if (!along.exists()) {
             return;
         }
         Configuration<S> moved = point_.bodies[b];
-        const S step = coarse_difference_step<S>();
+        const S step = cbrt(std::numeric_limits<S>::epsilon());
         moved.position += step;
         Configuration<S> back = point_.bodies[b];
         back.position -= step;
