@@ -76,11 +76,13 @@ def main():
     parser.add_argument("--capillary-number", type=numbers, default=[1, 100, 1e4])
     parser.add_argument("--timeout", type=float, default=600, help="seconds for each")
     arguments, options = parser.parse_known_args()
-    options = options or ["--preset-accuracy", "fast"]
+    # Also states that are not stable.
+    options = options or ["--preset-accuracy", "fast", "--stationary", "newton"]
     program = str(Path(arguments.bin) / "poiseuille_vesicle")
 
-    print("| v | confinement/limit | Ca | velocity/mean | mean film | thinnest | pressure drop/Ca | s | error | modes |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    print("| v | confinement/limit | Ca | velocity/mean | mean film | thinnest | pressure drop/Ca | "
+          "growth rate | s | error | modes |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
     rows = []
     for v in arguments.reduced_volume:
         for share in arguments.share:
@@ -88,13 +90,13 @@ def main():
                 s = run(program, v, share, ca, arguments.timeout, options)
                 start = f"| {v:g} | {share:g} | {ca:g} | "
                 if isinstance(s, str):
-                    print(start + s + " | | | | | | |", flush=True)
+                    print(start + s + " | | | | | | | |", flush=True)
                     continue
                 ratio = s["velocity"] / (ca / 2)
                 rows.append((v, share, ca, ratio, s["film_thickness_min"]))
                 print(start + f"{ratio:.5f} | {s['film_thickness_mean']:.5f} | {s['film_thickness_min']:.5f} | "
-                      f"{s['pressure_drop'] / ca:.4f} | {s['seconds']:.1f} | {s['error_estimate']:.1e} | "
-                      f"{s['elements']} |", flush=True)
+                      f"{s['pressure_drop'] / ca:.4f} | {s.get('leading_growth_rate', math.nan):.3g} | "
+                      f"{s['seconds']:.1f} | {s['error_estimate']:.1e} | {s['elements']} |", flush=True)
 
     print("\n| v | Ca | thinnest film ~ (1 - confinement/limit)^n | velocity/mean - 1 ~ likewise |\n|---|---|---|---|")
     show = lambda n: "-" if n is None else f"{n:.3f}"

@@ -6,9 +6,11 @@
 #include <axistokes/discretization/linear_elements.hpp>
 #include <axistokes/discretization/spectral_meridian.hpp>
 #include <axistokes/flow/gravity.hpp>
+#include <axistokes/flow/poiseuille.hpp>
 #include <axistokes/flow/quiescent.hpp>
 #include <axistokes/flow/unbounded_poiseuille.hpp>
 #include <axistokes/geometry/shapes.hpp>
+#include <axistokes/geometry/tube_shapes.hpp>
 #include <axistokes/kernel/free_space.hpp>
 #include <axistokes/kernel/tube.hpp>
 #include <axistokes/membrane/rigid_body.hpp>
@@ -378,4 +380,40 @@ TEST_CASE("drivers: the estimate of a nearly spherical vesicle counts the area t
         CHECK(estimate < 50 * error);
         params.elements.reset();
     }
+}
+
+TEST_CASE("drivers: a vesicle that fills its tube is solved for after one step, and is what marching ends with") {
+    using Tight = Simulator<TubeKernel<double>, SpectralMeridian<double>, Vesicle<double>, Poiseuille<double>,
+                            ExtrapolatedEulerOfOrder, DenseLU<double>>;
+    const double volume = 4 * detail::pi_value<double>() / 3;
+    const double excess_area = 0.437145309298765;  // a reduced volume of 0.95
+    const double radius = critical_tube_radius(3 * volume + excess_area, volume) / 0.95;
+    const auto found = [&](WayToStationary way, std::size_t* steps) {
+        DriverParams<double> params = accuracy(1e-4, false);
+        params.way = way;
+        Driver<Tight> driver(
+            [&](Index elements) {
+                SimulationParams<double> simulation;
+                simulation.tolerance = 1e-5;
+                const SpectralMeridian<double> series;
+                const auto shape = [&](Index n) {
+                    return shape_in_tube<double>(excess_area, radius, SpheroidKind::prolate, n);
+                };
+                return Tight(Scene(TubeKernel<double>(radius), series, Vesicle<double>(),
+                                   Poiseuille<double>(100.0, radius), DenseLU<double>()),
+                             ExtrapolatedEulerOfOrder(), nodes_of(series, shape, elements), simulation);
+            },
+            params);
+        const auto& result = driver.run();
+        CHECK(result.stationary);
+        CHECK(result.error_met());
+        *steps = driver.simulator().history().size();
+        return *result.velocity;
+    };
+    std::size_t solved = 0;
+    std::size_t marched = 0;
+    const double velocity = found(WayToStationary::automatic, &solved);
+    CHECK(solved == 1);
+    CHECK(velocity == Approx(found(WayToStationary::march, &marched)).epsilon(1e-4));
+    CHECK(marched > 20);
 }
