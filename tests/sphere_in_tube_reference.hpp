@@ -43,9 +43,13 @@ class SphereInTube {
         }
     };
 
-    /// `pairs`: multipoles of either kind; 0: as many as matter to the type.
+    /// `pairs`: multipoles of either kind; 0: as many as matter to the type. Confinements that take Bessel functions
+    /// beyond the type's range are refused: above 0.971 in double, 0.9978 in long double of 64 bits.
     explicit SphereInTube(S confinement, Index pairs = 0) : confinement_(confinement) {
-        detail::require(confinement > S(0) && confinement <= S(0.95), "confinement", confinement, "in (0, 0.95]");
+        using std::log;
+        detail::require(confinement > S(0) && confinement < S(1), "confinement", confinement, "in (0, 1)");
+        detail::require(last_wave() < log(std::numeric_limits<S>::max()), "confinement", confinement,
+                        "such that exp(log(1/eps)/(2 (1 - confinement))) is within the type's range");
         pairs_ = pairs > 0 ? pairs : sufficient_pairs(confinement);
         make_spectrum();
         // Equal angles, twice as many equations as unknowns; by symmetry half of the sphere does.
@@ -152,18 +156,22 @@ class SphereInTube {
         return 6 + static_cast<Index>(log(std::numeric_limits<S>::epsilon()) / log(rate) / 2);
     }
 
+    /// What is left of the correction on the sphere decays like exp(-2 W (1 - confinement)).
+    S last_wave() const {
+        using std::log;
+        return (5 - log(std::numeric_limits<S>::epsilon())) / (2 * (1 - confinement_));
+    }
+
     /// Gauss nodes in W = zeta Rc and the correction's amplitudes there, for all multipoles.
     void make_spectrum() {
-        using std::log;
-        // What is left of the correction on the sphere decays like exp(-2 W (1 - confinement)).
-        const S last = (5 - log(std::numeric_limits<S>::epsilon())) / (2 * (1 - confinement_));
-        // Graded towards the logarithm at 0.
+        const S last = last_wave();
+        // Graded towards the logarithm at 0; short where the low multipoles vary.
         S left = 0;
         S right = std::numeric_limits<S>::epsilon();
         while (left < last) {
             add_panel(left, right);
             left = right;
-            right = left < S(0.5) ? 4 * left : left + 2;
+            right = left < S(0.5) ? 4 * left : left + (left < S(32) ? 2 : 6);
         }
         amplitudes_.resize(2 * static_cast<Index>(nodes_.size()), 2 * pairs_);
         for (std::size_t k = 0; k < nodes_.size(); ++k) {

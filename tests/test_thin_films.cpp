@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A sphere that almost fills a tube: its drag against the lubrication expansion of Bungay & Brenner (Int. J. Multiphase
-// Flow 1 (1973) 25), with tolerances relative to what the wall's cancellation leaves.
+// Flow 1 (1973) 25), and against multipoles, with tolerances relative to what the wall's cancellation leaves.
 #include "catch.hpp"
 #include <axistokes/axistokes.hpp>
 
@@ -42,6 +42,14 @@ TEST_CASE("thin films: the drag of a sphere agrees with the lubrication expansio
     CHECK(drag(0.98, 1e-12, 81) == Approx(lubrication(0.98)).epsilon(2e-5));
     CHECK(drag(0.99, 1e-12, 121) == Approx(lubrication(0.99)).epsilon(3e-6));
     CHECK(drag(0.995, 1e-12, 181) == Approx(lubrication(0.995)).epsilon(3e-6));
+}
+
+TEST_CASE("thin films: the drag of a sphere agrees with multipoles, which have no small gap to expand in") {
+    // SphereInTube<long double> (sphere_in_tube_reference.hpp), bounds of 1e-14 to 3e-12: test_tube_sphere "[.report]".
+    CHECK(drag(0.95, 1e-12, 81) == Approx(2808.80151288).epsilon(1e-9));
+    CHECK(drag(0.98, 1e-12, 121) == Approx(28752.0464283).epsilon(1e-8));
+    CHECK(drag(0.99, 1e-12, 181) == Approx(164604.775009).epsilon(1e-7));
+    CHECK(drag(0.995, 1e-12, 271) == Approx(936778.669779).epsilon(1e-6));
 }
 
 TEST_CASE("thin films: tolerances are relative to what the wall leaves, a drag factor's part") {

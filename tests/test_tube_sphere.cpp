@@ -336,3 +336,15 @@ TEST_CASE("the pressure drop of a sphere in a tube is the reference's", "[sphere
 TEST_CASE("report: a rigid sphere on the axis of a tube", "[.report]") {
     print_tables<long double>();
 }
+
+TEST_CASE("report: a rigid sphere that almost fills a tube", "[.report]") {
+    std::cout << "R0/Rc  K  fixed  U/u_max  relative error below  multipoles\n";
+    for (const long double x : {0.95L, 0.98L, 0.99L, 0.995L}) {
+        const axistokes::test::SphereInTube<long double> s(x);
+        const long double bound =
+            std::max(s.error_bound(s.dragged()) / s.drag_factor(), s.error_bound(s.fixed()) / s.fixed_drag_factor());
+        std::cout << std::defaultfloat << std::setprecision(12) << x << "  " << s.drag_factor() << "  "
+                  << s.fixed_drag_factor() << "  " << s.velocity_ratio() << "  " << std::setprecision(2) << bound
+                  << "  " << 2 * s.pairs() << std::endl;
+    }
+}
