@@ -202,9 +202,10 @@ TEST_CASE("the reference's error stays within its bound", "[sphere]") {
 }
 
 TEST_CASE("the reference refuses what it is not made for", "[sphere]") {
-    for (const double x : {0.0, -0.5, 0.96, std::nan("")}) {
-        CHECK(mentions(refusal([&] { Reference sphere(x); }), "confinement", "must be", "in (0, 0.95]"));
+    for (const double x : {0.0, -0.5, 1.0, std::nan("")}) {
+        CHECK(mentions(refusal([&] { Reference sphere(x); }), "confinement", "must be", "in (0, 1)"));
     }
+    CHECK(mentions(refusal([] { Reference sphere(0.98); }), "confinement", "must be", "within the type's range"));
 }
 
 TEST_CASE("the reference agrees with published values", "[sphere]") {

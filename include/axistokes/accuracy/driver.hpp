@@ -759,7 +759,7 @@ class Driver {
     void find_stationary() {
         if (fills_tube()) {
             march(simulator_->params().tolerance, 1, std::min<Index>(steps() + 1, simulator_->params().most_steps));
-            if (stopped_ || converged(true, film_elements())) {
+            if (stopped_ || converged(true, film_elements(simulator_->configuration()))) {
                 return;
             }
         }
@@ -809,13 +809,16 @@ class Driver {
         }
     }
 
-    /// Of the body there: forces vary over sqrt(h Rc) along a film of thickness h in a tube of radius Rc.
-    Index film_elements() const {
+    /// Forces vary over sqrt(h Rc) along a film of thickness h in a tube of radius Rc.
+    Index film_elements(const Configuration<S>& body) const {
         using std::sqrt;
-        const Configuration<S>& body = simulator_->configuration();
-        const S film = simulator_->scene().film_thickness(body).min;
-        const S width = film + body.shape.r.maxCoeff();
-        return static_cast<Index>(detail::chord_length(body.shape) / (S(0.4) * sqrt(film * width)));
+        if constexpr (Simulator::SceneType::confined) {
+            const S film = simulator_->scene().film_thickness(body).min;
+            const S width = film + body.shape.r.maxCoeff();
+            return static_cast<Index>(detail::chord_length(body.shape) / (S(0.4) * sqrt(film * width)));
+        } else {
+            return 0;
+        }
     }
 
     /// A residual from which Newton's method takes a few evaluations, without coarser solutions first.
@@ -1120,12 +1123,13 @@ class Driver {
         if (several && !(error < std::numeric_limits<S>::infinity())) {
             throw SimulationFailure("stationary state: the films between the bodies are not resolved");
         }
-        constexpr Index enough = 128;
         Found state = given;
         Index elements = 0;
         bool fewer = false;
         for (std::size_t b = 0; b < state.bodies.size(); ++b) {
             auto& body = state.bodies[b];
+            // Round-off grows like the fourth power of the elements.
+            const Index enough = std::max<Index>(64, film_elements(body));
             if (spectral() && simulator_->scene().deforms(b) && body.shape.elements() > enough) {
                 body = simulator_->scene().redistributed(body, enough);
                 fewer = true;
