@@ -45,7 +45,8 @@ struct DriverResult {
     std::string refinement_failure;
     Index newton_iterations = 0;
     Index newton_evaluations = 0;
-    /// Growth rate of the fastest axisymmetric disturbance, found with so many elements; stable if negative.
+    /// Growth rate of the fastest axisymmetric disturbance, found with so many elements; stable if negative. None where
+    /// these do not resolve a film.
     std::optional<S> growth_rate;
     Index stability_elements = 0;
 
@@ -821,6 +822,18 @@ class Driver {
         }
     }
 
+    /// Whether the elements carry the waves of the films, for growth rates.
+    bool films_resolved(const State& bodies) const {
+        const double needed = spectral() ? 0.9 : 2;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            if (simulator_->scene().deforms(b) &&
+                double(bodies[b].shape.elements()) < needed * double(film_elements(bodies[b]))) {
+                return false;
+            }
+        }
+        return true;
+    }
+
     /// A residual from which Newton's method takes a few evaluations, without coarser solutions first.
     static S near() { return S(1e-5); }
 
@@ -859,6 +872,10 @@ class Driver {
                 stopped_ = stopped_ || !observe_(*simulator_);
                 return !stopped_;
             };
+            if (least > 0) {
+                // In the strongest flows it leads nowhere from the first shape; where it does, 50 are enough.
+                solver_params.most_iterations = 50;
+            }
             Solver solver(simulator_->scene(), solver_params);
             State start = centred();
             if (adapts() && least > elements()) {
@@ -878,6 +895,7 @@ class Driver {
             }
             result_.newton_iterations = state.iterations;
             result_.newton_evaluations = state.evaluations;
+            slowest_.reset();
             bool examined = false;
             S error = std::numeric_limits<S>::infinity();
             if (!spectral()) {
@@ -895,7 +913,8 @@ class Driver {
                 const bool last = error <= params_.eps || !adapts() || stopped_ || nothing_to_add(state.bodies);
                 // Growth rates need no more than a recognisable shape, and cost as much as many iterations. Those of
                 // distances need the most accurate state there is.
-                if (!examined && (last || (!several && (!spectral() || error < S(1e-3))))) {
+                if (!examined &&
+                    (last || (!several && (!spectral() || error < S(1e-3)) && films_resolved(state.bodies)))) {
                     examine(solver, state, measures, error);
                     examined = true;
                 }
@@ -936,11 +955,11 @@ class Driver {
     template <class Found>
     S residual_error(const Found& state) const {
         using std::abs;
-        if (!result_.growth_rate || state.bodies.size() > 1) {
+        if (!slowest_ || state.bodies.size() > 1) {
             return S(0);
         }
         const S scale = std::max(S(1), simulator_->scene().velocity_scale());
-        return state.residual * scale / (abs(*result_.growth_rate) * S(length(state.bodies.front())));
+        return state.residual * scale / (abs(*slowest_) * S(length(state.bodies.front())));
     }
 
     /// Goes on for as long as the accuracy takes, now that the slowest disturbance is known.
@@ -1144,8 +1163,11 @@ class Driver {
             }
         }
         const S rate = solver.growth_rates(state).front().real();
-        result_.growth_rate = rate;
-        result_.stability_elements = elements;
+        slowest_ = rate;
+        if (films_resolved(state.bodies)) {
+            result_.growth_rate = rate;
+            result_.stability_elements = elements;
+        }
         // The error of a distance is that of the velocities over the rate at which they change with it.
         const S scale = std::max(S(1), simulator_->scene().velocity_scale());
         const S velocity_error = error * abs(given.instants.front().velocity) + params_.newton_tolerance * scale;
@@ -1179,7 +1201,8 @@ class Driver {
     Observer observe_;
     std::optional<Simulator> simulator_;
     Result result_;
-    double film_error_ = 0;  // of the last step; if the way matters, the largest of all
+    std::optional<S> slowest_;  // growth rate, resolved or not
+    double film_error_ = 0;     // of the last step; if the way matters, the largest of all
     bool stopped_ = false;
 };
 
