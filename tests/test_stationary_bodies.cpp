@@ -72,7 +72,7 @@ TEST_CASE("The Jacobian of vesicles and a sphere is that of differences") {
                     {ball(elements), 0.1, {}},
                     {centred(SpheroidKind::oblate, 0.4, elements), 2.2, {}}};
     detail::evaluate(scene, point);
-    const Matrix<double> jacobian = detail::VelocityJacobian<SceneType>(scene, point)();
+    const Matrix<double> jacobian = detail::VelocityJacobian<SceneType>(scene, point, true)();
     const detail::StationaryLayout layout(scene, point.bodies);
     const auto velocity = [&](const Vector<double>& displacement) {
         Point_ moved;

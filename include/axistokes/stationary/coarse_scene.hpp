@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene with integrals as coarse as a first guess, or a derivative, needs them.
+// A scene with integrals as coarse as a first guess needs them.
 #pragma once
 
 #include "../scene.hpp"

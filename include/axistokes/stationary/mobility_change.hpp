@@ -39,9 +39,8 @@ class MobilityChange {
     using Point = StationaryPoint<SceneType>;
 
   public:
-    /// `rough`: the scene whose integrals serve the normal displacements.
-    MobilityChange(SceneType& scene, const SceneType& rough, const Point& point)
-        : scene_(scene), rough_(rough), point_(point), layout_(scene, point.bodies), force_(layout_.all_velocities()) {
+    MobilityChange(SceneType& scene, const Point& point)
+        : scene_(scene), point_(point), layout_(scene, point.bodies), force_(layout_.all_velocities()) {
         const S origin = point.bodies.front().position;
         for (std::size_t b = 0; b < point.bodies.size(); ++b) {
             curves_.push_back(shifted(point.bodies[b].shape, S(point.bodies[b].position - origin)));
@@ -85,8 +84,8 @@ class MobilityChange {
         const Index n = count(b);
         const Index bodies = layout_.all_velocities();
         Matrix<S> g = Matrix<S>::Zero(bodies + 4 * n, bodies + 4 * n);
-        const auto& discretization = rough_.discretization();
-        const auto& kernel = rough_.kernel();
+        const auto& discretization = scene_.discretization();
+        const auto& kernel = scene_.kernel();
         for (std::size_t other = 0; other < curves_.size(); ++other) {
             const auto put = [&](Index target, const Meridian<S>& at, Index source, const Meridian<S>& of) {
                 g.block(target, source, 2 * at.nodes(), 2 * of.nodes()) =
@@ -128,8 +127,7 @@ class MobilityChange {
         }
     }
 
-    /// How bodies push each other along may be a small part of all that: it is differentiated by itself, with the
-    /// scene's own integrals.
+    /// How bodies push each other along may be a small part of all that: it is differentiated by itself.
     void translate(std::size_t b, const S& gap) {
         const Translation<S> along = translation(scene_, point_, b);
         if (!along.exists()) {
@@ -157,7 +155,6 @@ class MobilityChange {
     }
 
     SceneType& scene_;
-    const SceneType& rough_;
     const Point& point_;
     StationaryLayout layout_;
     std::vector<Meridian<S>> curves_;  // relative to the first body

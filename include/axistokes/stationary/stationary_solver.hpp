@@ -79,10 +79,7 @@ requires(SceneType::deformable) class StationarySolver {
 
     /// Throws InvalidArgument when a parameter is out of range.
     explicit StationarySolver(SceneType scene, Params params = {})
-        : scene_(std::move(scene)),
-          coarse_(detail::loosened_scene(scene_, Scalar(1e-4))),
-          rough_(detail::loosened_scene(scene_, Scalar(1e-6))),
-          params_(params) {
+        : scene_(std::move(scene)), coarse_(detail::loosened_scene(scene_, Scalar(1e-4))), params_(params) {
         detail::require(params.tolerance > Scalar(0) && params.tolerance < Scalar(1), "stationarity tolerance",
                         params.tolerance, "in (0, 1)");
         detail::require(params.most_iterations >= 1, "number of iterations", params.most_iterations, "at least 1");
@@ -146,7 +143,7 @@ requires(SceneType::deformable) class StationarySolver {
     std::vector<std::complex<Scalar>> growth_rates(const State& state) {
         const Point point = point_of(state);
         return detail::growth_rates<Scalar>(detail::constraints(scene_, point),
-                                            detail::VelocityJacobian<SceneType>(scene_, point)());
+                                            detail::VelocityJacobian<SceneType>(scene_, point, true)());
     }
 
     /// The same by central differences of the full equations: twice as many evaluations as unknowns.
@@ -244,7 +241,7 @@ requires(SceneType::deformable) class StationarySolver {
         Scalar growth = 0;
         Scalar travelled = 0;  // since the Jacobian was found, in units of the limit
         const auto renew = [&] {
-            jacobian = detail::VelocityJacobian<SceneType>(scene, &scene == &scene_ ? rough_ : scene, point)();
+            jacobian = detail::VelocityJacobian<SceneType>(scene, point)();
             travelled = 0;
             ++state.jacobians;
             if (params_.only_stable) {
@@ -384,7 +381,6 @@ requires(SceneType::deformable) class StationarySolver {
 
     SceneType scene_;
     SceneType coarse_;
-    SceneType rough_;  // for derivatives
     Params params_;
 };
 

@@ -29,15 +29,12 @@ class VelocityJacobian {
     using Point = StationaryPoint<SceneType>;
 
   public:
-    VelocityJacobian(SceneType& scene, const Point& point, bool accurately = true)
-        : VelocityJacobian(scene, scene, point, accurately) {}
-    /// For an iteration: `rough` as in MobilityChange.
-    VelocityJacobian(SceneType& scene, const SceneType& rough, const Point& point, bool accurately = false)
+    VelocityJacobian(SceneType& scene, const Point& point, bool accurately = false)
         : scene_(scene),
           point_(point),
           accurately_(accurately),
           layout_(scene, point.bodies),
-          change_(MobilityChange<SceneType>(scene, rough, point)()),
+          change_(MobilityChange<SceneType>(scene, point)()),
           flow_change_(Matrix<S>::Zero(layout_.all_velocities(), layout_.all())),
           force_change_(Matrix<S>::Zero(layout_.all_velocities(), layout_.all())),
           local_(Matrix<S>::Zero(layout_.all(), layout_.all())),
