@@ -81,8 +81,8 @@ def main():
     program = str(Path(arguments.bin) / "poiseuille_vesicle")
 
     print("| v | confinement/limit | Ca | velocity/mean | mean film | thinnest | pressure drop/Ca | "
-          "growth rate | s | error | modes |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+          "s | error | modes |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     rows = []
     for v in arguments.reduced_volume:
         for share in arguments.share:
@@ -90,12 +90,12 @@ def main():
                 s = run(program, v, share, ca, arguments.timeout, options)
                 start = f"| {v:g} | {share:g} | {ca:g} | "
                 if isinstance(s, str):
-                    print(start + s + " | | | | | | | |", flush=True)
+                    print(start + s + " | | | | | | |", flush=True)
                     continue
                 ratio = s["velocity"] / (ca / 2)
                 rows.append((v, share, ca, ratio, s["film_thickness_min"]))
                 print(start + f"{ratio:.5f} | {s['film_thickness_mean']:.5f} | {s['film_thickness_min']:.5f} | "
-                      f"{s['pressure_drop'] / ca:.4f} | {s.get('leading_growth_rate', math.nan):.3g} | "
+                      f"{s['pressure_drop'] / ca:.4f} | "
                       f"{s['seconds']:.1f} | {s['error_estimate']:.1e} | {s['elements']} |", flush=True)
 
     print("\n| v | Ca | thinnest film ~ (1 - confinement/limit)^n | velocity/mean - 1 ~ likewise |\n|---|---|---|---|")

@@ -872,10 +872,6 @@ class Driver {
                 stopped_ = stopped_ || !observe_(*simulator_);
                 return !stopped_;
             };
-            if (least > 0) {
-                // In the strongest flows it leads nowhere from the first shape; where it does, 50 are enough.
-                solver_params.most_iterations = 50;
-            }
             Solver solver(simulator_->scene(), solver_params);
             State start = centred();
             if (adapts() && least > elements()) {
