@@ -80,8 +80,7 @@ def main():
     options = options or ["--preset-accuracy", "fast", "--stationary", "newton"]
     program = str(Path(arguments.bin) / "poiseuille_vesicle")
 
-    print("| v | confinement/limit | Ca | velocity/mean | mean film | thinnest | pressure drop/Ca | "
-          "s | error | modes |")
+    print("| v | confinement/limit | Ca | velocity/mean | mean film | thinnest | pressure drop/Ca | s | error | modes |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     rows = []
     for v in arguments.reduced_volume:
@@ -95,8 +94,8 @@ def main():
                 ratio = s["velocity"] / (ca / 2)
                 rows.append((v, share, ca, ratio, s["film_thickness_min"]))
                 print(start + f"{ratio:.5f} | {s['film_thickness_mean']:.5f} | {s['film_thickness_min']:.5f} | "
-                      f"{s['pressure_drop'] / ca:.4f} | "
-                      f"{s['seconds']:.1f} | {s['error_estimate']:.1e} | {s['elements']} |", flush=True)
+                      f"{s['pressure_drop'] / ca:.4f} | {s['seconds']:.1f} | {s['error_estimate']:.1e} | "
+                      f"{s['elements']} |", flush=True)
 
     print("\n| v | Ca | thinnest film ~ (1 - confinement/limit)^n | velocity/mean - 1 ~ likewise |\n|---|---|---|---|")
     show = lambda n: "-" if n is None else f"{n:.3f}"

@@ -810,13 +810,11 @@ class Driver {
         }
     }
 
-    /// Forces vary over sqrt(h Rc) along a film of thickness h in a tube of radius Rc.
+    /// Elements that carry the forces along a body's film.
     Index film_elements(const Configuration<S>& body) const {
-        using std::sqrt;
         if constexpr (Simulator::SceneType::confined) {
             const S film = simulator_->scene().film_thickness(body).min;
-            const S width = film + body.shape.r.maxCoeff();
-            return static_cast<Index>(detail::chord_length(body.shape) / (S(0.4) * sqrt(film * width)));
+            return static_cast<Index>(detail::length_in_film(body.shape, film) / S(0.4));
         } else {
             return 0;
         }

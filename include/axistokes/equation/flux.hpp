@@ -7,12 +7,17 @@
 
 namespace axistokes::detail {
 
+/// The uniform pressure in a force density at the nodes: its mean normal part.
+template <class S, class Surface>
+S mean_normal_part(const Surface& surface, const Vector<S>& field) {
+    return surface.flux(field) / surface.flux(surface.normals());
+}
+
 /// A field at the nodes without its mean normal part: a velocity without flux, or a force density without the uniform
 /// pressure in it.
 template <class S, class Surface>
 Vector<S> without_flux(const Surface& surface, const Vector<S>& field) {
-    const Vector<S> n = surface.normals();
-    return field - (surface.flux(field) / surface.flux(n)) * n;
+    return field - mean_normal_part<S>(surface, field) * surface.normals();
 }
 
 /// m's rows from `row` on, of one column.

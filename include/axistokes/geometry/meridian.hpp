@@ -44,13 +44,15 @@ bool segments_cross(const Point<S>& a, const Point<S>& b, const Point<S>& c, con
     return c_and_d_apart && a_and_b_apart;
 }
 
-/// Sum of the distances of neighbouring nodes.
+/// The curve's length, from node to node, over sqrt(h Rc) with Rc = h + max r: along a film of thickness h in a tube of
+/// radius Rc forces vary over that.
 template <class S>
-S chord_length(const Meridian<S>& m) {
+S length_in_film(const Meridian<S>& m, const S& film) {
+    using std::sqrt;
     const Index n = m.elements();
     const Vector<S> dr = m.r.tail(n) - m.r.head(n);
     const Vector<S> dz = m.z.tail(n) - m.z.head(n);
-    return (dr.cwiseAbs2() + dz.cwiseAbs2()).cwiseSqrt().sum();
+    return (dr.cwiseAbs2() + dz.cwiseAbs2()).cwiseSqrt().sum() / sqrt(film * (film + m.r.maxCoeff()));
 }
 
 inline void require_elements(Index elements) {

@@ -181,17 +181,16 @@ requires(SceneType::deformable) class StationarySolver {
         return fewest;
     }
 
-    /// Whether half of the elements, and coarse integrals, may do for a first guess. Along a film of thickness h in a
-    /// tube of radius Rc forces vary over sqrt(h Rc), and the wall leaves (h/Rc)^(5/2) of them.
+    /// Whether half of the elements, and coarse integrals, may do for a first guess: the wall leaves (h/Rc)^(5/2) of
+    /// the forces along a film of thickness h in a tube of radius Rc.
     bool half_resolves(const Bodies& bodies) const {
-        using std::sqrt;
         bool resolved = fewest_elements(bodies) / 2 >= least_degree;
         if constexpr (SceneType::confined) {
             for (std::size_t b = 0; b < bodies.size(); ++b) {
+                const Meridian<Scalar>& shape = bodies[b].shape;
                 const Scalar film = scene_.film_thickness(bodies[b]).min;
-                const Scalar width = scene_.gap({Scalar(0), bodies[b].position});
-                const Scalar spacing = 2 * detail::chord_length(bodies[b].shape) / Scalar(bodies[b].shape.elements());
-                const bool fine = spacing <= Scalar(0.85) * sqrt(film * width) && film >= Scalar(0.02) * width;
+                const bool fine = 2 * detail::length_in_film(shape, film) <= Scalar(0.85) * Scalar(shape.elements()) &&
+                                  film >= Scalar(0.02) * (film + shape.r.maxCoeff());
                 resolved = resolved && (fine || !scene_.deforms(b));
             }
         }

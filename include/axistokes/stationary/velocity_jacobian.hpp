@@ -105,7 +105,7 @@ class VelocityJacobian {
         motion.tail(n).array() -= point_.instants.front().velocity;
         const S eps = std::numeric_limits<S>::epsilon();
         const S step = accurately_ ? S(cbrt(eps)) : S(sqrt(eps));
-        const S pressure = surface.flux(point_.instants[b].solution.force) / surface.flux(surface.normals());
+        const S pressure = mean_normal_part<S>(surface, point_.instants[b].solution.force);
         const auto moved = [&](Index j, const S& distance) {
             Configuration<S> there = body;
             displace<S>(there.shape, surface, distance * Vector<S>::Unit(n, j));
